@@ -173,7 +173,7 @@ pub(crate) fn judge_seen(
 /// Returns the judgement of a search's diagrams; `None` if the variant is not in that of the determinate ones.
 pub(crate) fn by_diagram(outcome: &Outcome, choices: &[usize]) -> Option<Judged> {
     let (search, diagrams) = (&outcome.search, outcome.diagrams.as_ref()?);
-    let key = |redundancy| brute::variant_key(search, choices, redundancy);
+    let key = |redundancy| search.steps.variant_key(choices, redundancy);
     // The diagram of the determinate ones does not ask what the state makes of a variant.
     match diagrams.admissible.end_of(choices).map(key) {
         Some(key) => Some((key, search.is_wanted(key))),

@@ -25,7 +25,7 @@ use ozols::score::outcome::Outcome;
 use ozols::score::request::{Check, List, Method, POOL, Request};
 use ozols::score::run::RunError;
 use ozols::search::check::brute::{Matrices, Seen};
-use ozols::search::check::brute_float::Approximate;
+use ozols::search::check::brute_float::{Approximate, RankedRows};
 use ozols::search::diagram::Stop;
 use std::hint::black_box;
 
@@ -207,14 +207,40 @@ fn bracket_of(outcome: &Outcome) -> Option<Bracket> {
 /// What examines a variant.
 type Look<'a> = Box<dyn Fn(&[usize]) -> Option<Seen> + Sync + 'a>;
 
+/// Looks at one variant in floating point; `None` where the arithmetic fails.
+pub(crate) fn look_in_floats(
+    all: &Approximate,
+    by: Elimination,
+    choices: &[usize],
+) -> Option<Seen> {
+    let [_, kept, state] = all.row_counts();
+    let rank = |rows| {
+        let matrix = all.variant_matrix(choices, rows);
+        let rank = by.rank_of(&matrix, by.default_tolerance());
+        rank.ok().map(|r| r.rank)
+    };
+    let free = rank(RankedRows::Free)?;
+    let with_kept = match kept {
+        0 => free,
+        _ => rank(RankedRows::WithKept)?,
+    };
+    let of_state = match state {
+        0 => None,
+        _ => Some(rank(RankedRows::State)?),
+    };
+    let ranks = [free, with_kept];
+    Some(Seen::of_ranks(all.row_counts(), ranks, of_state))
+}
+
 /// Returns the record of a search that examines variants one by one, over the first prime or in floating point.
 fn by_looking(truth: &Truth, way: Way, watch: Stopwatch) -> Result<Record, RunError> {
     let search = ground_truth::search_over_prime(&truth.search, 0)?;
     let look = || -> Result<Look<'_>, RunError> {
         Ok(match way {
             Way::Float(e) => {
-                let all = Approximate::new(&search, e, e.default_tolerance())?;
-                Box::new(move |choices| all.look_at(choices))
+                let scaled = e == Elimination::Svd;
+                let all = Approximate::new(&search, &search.mechanism, scaled)?;
+                Box::new(move |choices| look_in_floats(&all, e, choices))
             }
             Way::Pruned => {
                 let all = Pruned::new(&search, &search.variable_orders().determinate);

@@ -34,7 +34,7 @@ pub(crate) enum Command {
     /// Find every redesign without redundant constraints: exact counts, best ones first.
     Search(search::Search),
     /// Compute Assur groups of a planar mechanism, and joint reactions over the cycle.
-    Statics(statics::args::Statics),
+    Statics(statics::Statics),
     /// Compute what a lever gripper can hold.
     Grip(grip::Grip),
     /// Size a torsional drive of two discs and run its programme.

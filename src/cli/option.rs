@@ -1,7 +1,7 @@
 //! Arguments of several commands, and arguments of every command.
 
 use crate::cli::terminal::{Done, output};
-use crate::draw::{Drawing, Size};
+use crate::draw::Drawing;
 use anyhow::ensure;
 use clap::{Args as ClapArgs, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -62,9 +62,6 @@ pub(crate) enum TextJsonOrCsv {
     Csv,
 }
 
-/// Pixels of a PNG per pixel of the drawing, by default.
-pub(crate) const SCALE: f64 = 2.0;
-
 /// Returns true if the name of a file ends in .png.
 pub(crate) fn named(path: Option<&Path>) -> bool {
     let end = path.and_then(Path::extension);
@@ -83,8 +80,8 @@ pub(crate) fn ensure_png() -> anyhow::Result<()> {
 
 /// Renders a drawing as PNG; reports characters that no font has.
 #[cfg(feature = "png")]
-pub(crate) fn render_png(drawing: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
-    let picture = crate::draw::png::png(drawing, size)?;
+pub(crate) fn render_png(drawing: &Drawing, width: Option<u32>) -> anyhow::Result<Vec<u8>> {
+    let picture = crate::draw::png::png(drawing, width)?;
     if !picture.missing.is_empty() {
         let missing: String = picture.missing.iter().collect();
         crate::cli::terminal::output::print_note(&format!(
@@ -96,7 +93,6 @@ pub(crate) fn render_png(drawing: &Drawing, size: Size) -> anyhow::Result<Vec<u8
 
 /// Returns an error, because this build has no PNG.
 #[cfg(not(feature = "png"))]
-pub(crate) fn render_png(_: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
-    // `there` has refused it
-    anyhow::bail!("built without PNG: {size:?}")
+pub(crate) fn render_png(_: &Drawing, _: Option<u32>) -> anyhow::Result<Vec<u8>> {
+    ensure_png().map(|()| Vec::new())
 }

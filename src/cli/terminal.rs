@@ -2,7 +2,6 @@
 
 pub(crate) mod interrupt;
 pub(crate) mod machine;
-pub(crate) mod memory;
 pub(crate) mod output;
 pub(crate) mod progress;
 

@@ -2,7 +2,6 @@
 //! written back, checked, changed with their comments kept, and made into templates.
 
 pub mod builder;
-pub mod costs;
 #[doc(hidden)]
 pub mod disk;
 mod doubted;
@@ -43,7 +42,7 @@ pub(crate) struct Findings {
     /// The names of the states, `free` first.
     pub(crate) states: Vec<String>,
     /// The parameters that an expression uses.
-    used: RefCell<BTreeSet<String>>,
+    pub(crate) used: RefCell<BTreeSet<String>>,
 }
 
 impl Findings {

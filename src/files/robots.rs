@@ -18,7 +18,7 @@ mod xml;
 pub use crate::robots::formats::refuse_foreign;
 pub use crate::robots::formats::{begins_description, is_description};
 pub use crate::robots::warning::ExportError;
-pub use crate::robots::warning::{Note, Options, Reader, Report};
+pub use crate::robots::warning::{KINEMATICS, Options, Reader, Report};
 pub use description::origin::{ElementPlace, Origin};
 pub use import::{Imported, import};
 

@@ -5,7 +5,7 @@
 
 pub mod contour;
 pub mod coupling;
-pub(crate) mod drive;
+pub mod drive;
 pub mod isometry;
 pub mod tree;
 pub mod twist;

@@ -6,7 +6,6 @@ pub mod drive_range;
 pub mod follow;
 pub mod jaws;
 pub mod pose;
-pub mod working;
 
 use crate::geom::expr::Expr;
 use crate::geom::vector::{Vector, add, length, scale, sub, to_vector};

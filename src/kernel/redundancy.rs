@@ -16,12 +16,11 @@ pub mod stress_loads;
 pub mod stressed;
 
 use crate::geom::exact::ExactError;
-use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::field::closure_of;
 use crate::rank::exact::modular;
 use crate::rank::method::NoAnswer;
 use crate::rank::numeric::NumericError;
-use crate::redundancy::external::present_links;
 use thiserror::Error;
 
 /// Reason why an analysis failed.
@@ -100,10 +99,9 @@ pub struct StateFigures {
 pub fn state_figures(mechanism: &Mechanism, state: StateId) -> Result<StateFigures, ExactError> {
     let (exact, closure) = closure_of(mechanism, state, 0)?;
     let rank = modular::rank_modulo(&exact, &closure);
-    let joints: Vec<JointId> = mechanism.joints_in(state).collect();
     Ok(StateFigures {
-        links: present_links(mechanism, &joints).len(),
-        joints: joints.len(),
+        links: mechanism.links_in(state).count(),
+        joints: mechanism.joints_in(state).count(),
         contours: closure.contours.len(),
         freedoms: closure.columns.len(),
         mobility: closure.columns.len() - rank,

@@ -6,7 +6,7 @@ use ozols::file::read::workload::motion;
 use ozols::model::mechanism::StateId;
 use ozols::rank::method::{RankOfJ, registry};
 use ozols::rank::rounded::verdict::rank_verdict;
-use ozols::rank::stroke::request::AskedStroke;
+use ozols::rank::stroke::analysis::StrokeRequest;
 use ozols::redundancy::analysis::{Method, analyse_states};
 use ozols::view::analysis::Analysis;
 use ozols::view::analysis::mobility::ByMethod;
@@ -74,8 +74,8 @@ pub(crate) fn stroke(
         let state = state(m, named)?;
         let verdict = rank_verdict(m, state).map_err(failed)?;
         let read = motion::parse_stroke(range).map_err(failed)?;
-        let asked =
-            AskedStroke::new(m, state, range, read, drive, &verdict, tolerance).map_err(failed)?;
+        let asked = StrokeRequest::new(m, state, range, read, drive, &verdict, tolerance)
+            .map_err(failed)?;
         let view = StrokeData::follow_stroke(&asked);
         Ok((
             json(&view.json())?,

@@ -39,12 +39,3 @@ pub use sheet::{Drawing, Label};
 pub use subject::{Marks, Subject};
 pub use symbol::placed::Swap;
 pub use symbol::symbols::joint_symbol;
-
-/// How large a picture of a drawing is.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Size {
-    /// Pixels for each of the drawing's.
-    Scale(f64),
-    /// Its width in pixels.
-    Width(u32),
-}

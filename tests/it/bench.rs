@@ -8,7 +8,7 @@ use ozols::search::check::brute::{Matrices, Seen};
 use ozols::search::check::brute_float::Approximate;
 use searching::pruned::Pruned;
 use searching::record::{Bracket, Record, Share, Trial, Way};
-use searching::{TrialEffort, run_trial};
+use searching::{TrialEffort, look_in_floats, run_trial};
 
 #[allow(dead_code, reason = "the bench draws charts, which are not tested")]
 #[path = "../../benches/ways/searching.rs"]
@@ -127,10 +127,11 @@ fn floating_point_looks_at_the_same_matrices() {
         let drawn = search.sample_variants(outcome.diagrams.as_ref().unwrap(), 7);
         let drawn: Vec<_> = drawn.take(40).collect();
         for e in [Elimination::Lu, Elimination::Qr, Elimination::Svd] {
-            let all = Approximate::new(search, e, e.default_tolerance()).unwrap();
+            let scaled = e == Elimination::Svd;
+            let all = Approximate::new(search, &search.mechanism, scaled).unwrap();
             for c in singular_values::certify_variants(search, drawn.clone(), true, None, &|| false)
             {
-                let seen = all.look_at(&c.variant.choices).unwrap();
+                let seen = look_in_floats(&all, e, &c.variant.choices).unwrap();
                 let opinion = c.second.opinion().unwrap();
                 let by_itself = (i64::from(seen.internal), seen.motion);
                 assert_eq!(by_itself, (opinion.redundant, opinion.output.unwrap()));

@@ -8,8 +8,6 @@ mod proof;
 mod reasons;
 
 use ozols::model::ranking::Ranking;
-use ozols::score::joint_types::JointTypes;
-use ozols::score::outcome::pareto::{dominates, fronts};
 use ozols::score::outcome::ranking::{RankedPool, Ranker, compare_ranked};
 
 fn loaded() -> Mechanism {
@@ -115,8 +113,8 @@ fn over_a_stroke_the_scores_are_the_worst_of_its_poses() {
     assert!(compared > 5);
 }
 
-fn ranking(order: Order, terms: &[(Term, f64)]) -> Ranking {
-    default_with(|r: &mut Ranking| (r.order, r.terms) = (order, terms.to_vec()))
+fn ranking(terms: &[(Term, f64)]) -> Ranking {
+    default_with(|r: &mut Ranking| r.terms = terms.to_vec())
 }
 
 const TERMS: [(Term, f64); 3] = [
@@ -138,43 +136,18 @@ fn ranked(m: &Mechanism, r: &Ranking, n: usize, top: usize) -> RankedPool {
 }
 
 #[test]
-fn orders_keep_their_laws() {
+fn the_order_is_that_of_the_sums() {
     let m = loaded();
     let n = 400;
-    let weight = ranked(&m, &ranking(Order::Weighted, &TERMS), n, n);
+    let weight = ranked(&m, &ranking(&TERMS), n, n);
     assert_eq!(weight.scored, n);
     for pair in weight.list.windows(2) {
         assert!(pair[0].total <= pair[1].total);
-        assert_eq!(
-            pair[0].total.unwrap(),
-            pair[0].scores.weighted_sum(&weight.ranking)
-        );
-        assert!(compare_ranked(&weight.ranking, &pair[0], &pair[1]).is_lt());
-    }
-    let lexical = ranked(&m, &ranking(Order::Lexicographic, &TERMS), n, n);
-    for pair in lexical.list.windows(2) {
-        let key = |i: usize| TERMS.map(|(t, _)| pair[i].scores.term_loss(t));
-        assert!(key(0) <= key(1));
-    }
-    // The same variants in all orders.
-    let pareto = ranked(&m, &ranking(Order::Pareto, &TERMS), n, n);
-    let set = |p: &RankedPool| {
-        let mut all: Vec<usize> = p.list.iter().map(|r| r.by_cost).collect();
-        all.sort_unstable();
-        all
-    };
-    assert_eq!(set(&weight), set(&lexical));
-    assert_eq!(set(&weight), set(&pareto));
-    // Nobody of the first front is dominated by anybody.
-    let point = |r: &ozols::score::outcome::ranking::Ranked| {
-        TERMS.map(|(t, _)| r.scores.term_loss(t)).to_vec()
-    };
-    for a in &pareto.list {
-        let beaten = pareto.list.iter().any(|b| dominates(&point(b), &point(a)));
-        assert_eq!(a.front == Some(1), !beaten);
+        assert_eq!(pair[0].total, pair[0].scores.weighted_sum(&weight.ranking));
+        assert!(compare_ranked(&pair[0], &pair[1]).is_lt());
     }
     // By cost alone, the order is that of cost, and proven as soon as a dearer one follows.
-    let cost = ranked(&m, &ranking(Order::Weighted, &[(Term::Cost, 1.0)]), n, 5);
+    let cost = ranked(&m, &ranking(&[(Term::Cost, 1.0)]), n, 5);
     let places: Vec<usize> = cost.list.iter().map(|r| r.by_cost).collect();
     assert!(places.is_sorted());
     assert!((1..=5).all(|i| cost.place_reason(&m, i).is_none()));
@@ -190,10 +163,10 @@ fn the_floor_proves_what_cost_alone_does_not() {
         (Term::OutputError, 10.0),
         (Term::Cost, 1.0),
     ];
-    let r = ranking(Order::Weighted, &terms);
+    let r = ranking(&terms);
     let small = ranked(&m, &r, 5000, 10);
     assert!(small.proven && small.scored < 5000, "{}", small.scored);
-    let last = small.list.last().unwrap().total.unwrap();
+    let last = small.list.last().unwrap().total;
     let s = search(&m, 0);
     let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
     let mut scratch = Scratch::default();
@@ -248,7 +221,7 @@ fn no_variant_is_below_the_floor() {
 #[test]
 fn limits_filter() {
     let m = loaded();
-    let free = ranked(&m, &ranking(Order::Weighted, &TERMS), 300, 300);
+    let free = ranked(&m, &ranking(&TERMS), 300, 300);
     let mut forces: Vec<f64> = free
         .list
         .iter()
@@ -256,7 +229,7 @@ fn limits_filter() {
         .collect();
     forces.sort_by(f64::total_cmp);
     let middle = forces[forces.len() / 2];
-    let mut r = ranking(Order::Weighted, &TERMS);
+    let mut r = ranking(&TERMS);
     r.limits = vec![Limit {
         term: Term::PeakForce,
         min: None,
@@ -270,87 +243,4 @@ fn limits_filter() {
             .iter()
             .all(|x| x.scores.force.utilisation <= middle)
     );
-}
-
-proptest! {
-    #[test]
-    fn fronts_are_those_of_brute_force(
-        points in prop::collection::vec(prop::collection::vec(0u8..5, 3), 0..60),
-    ) {
-        let points: Vec<Vec<f64>> = points.iter().map(|p| p.iter().map(|&x| f64::from(x)).collect()).collect();
-        let found = fronts(&points, points.len());
-        let mut left: Vec<usize> = (0..points.len()).collect();
-        let mut front = 0;
-        while !left.is_empty() {
-            let best: Vec<usize> = left
-                .iter()
-                .copied()
-                .filter(|&i| !left.iter().any(|&j| dominates(&points[j], &points[i])))
-                .collect();
-            for &i in &best {
-                prop_assert_eq!(found[i], Some(front));
-            }
-            left.retain(|i| !best.contains(i));
-            front += 1;
-        }
-    }
-}
-
-#[test]
-fn equals_do_not_dominate_each_other() {
-    let points = [vec![1.0, 2.0], vec![1.0, 2.0], vec![1.0, 3.0]];
-    assert!(!dominates(&points[0], &points[1]) && dominates(&points[0], &points[2]));
-    assert_eq!(fronts(&points, 3), [Some(0), Some(0), Some(1)]);
-}
-
-#[test]
-fn the_catalogue_of_joint_types_is_whole() {
-    let types = JointTypes::built_in();
-    for t in JointType::NAMED {
-        let found = types
-            .get(t.name())
-            .unwrap_or_else(|| panic!("{}", t.name()));
-        assert!(found.capacity_force > 0.0 && found.clearance >= 0.0);
-        assert!(found.capacity_moment.is_none_or(|m| m > 0.0));
-    }
-    assert!(types.get("custom").is_some());
-}
-
-/// A pool of a thousand makes another variant the first of gripper-10-loaded than one of twenty thousand does: what is missing to
-/// a proof is said.
-#[test]
-fn a_pool_says_how_far_it_is_from_proven() {
-    let m = loaded();
-    let asked = |pool| {
-        default_with(|r: &mut Request| {
-            (r.pool, r.list) = (Some(pool), ozols::score::request::List::Top(1))
-        })
-    };
-    let first = |request: &Request| {
-        let found = ozols::search(&m, request).unwrap();
-        let ranking = found.ranking.unwrap();
-        let best = ranking.list[0].clone();
-        (best, ranking)
-    };
-    let (narrow, _) = first(&asked(1000));
-    let (best, ranking) = first(&asked(20_000));
-    // Places among variants of one cost are the diagram's; which places they are does not matter.
-    assert!(
-        narrow.by_cost <= 1000 && best.by_cost > 1000,
-        "{}",
-        best.by_cost
-    );
-    assert!(best.total < narrow.total);
-    // What is missing: nothing elsewhere is below the least sum, and nothing from the stated cost on can come before.
-    assert!(!ranking.proven);
-    let missing = ranking.missing.unwrap();
-    assert_eq!(missing.last, best.total.unwrap());
-    assert!(missing.least < missing.last, "{missing:?}");
-    let cheaper: u64 = missing.cheaper.as_ref().unwrap().try_into().unwrap();
-    assert!(cheaper > 20_000 && cheaper < 6_352_317_325, "{cheaper}");
-    // Where cost weighs enough the list is proven, and nothing is missing.
-    let mut heavy = asked(20_000);
-    heavy.rank = vec![(Term::PeakMoment, 10.0), (Term::Cost, 50.0)];
-    let (_, ranking) = first(&heavy);
-    assert!(ranking.proven && ranking.missing.is_none() && ranking.scored < 20_000);
 }

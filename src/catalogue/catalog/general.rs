@@ -19,6 +19,7 @@ use crate::score::run::{RunError, run};
 use crate::search::Search;
 use crate::search::answer::counts::count_orbits;
 use crate::search::answer::ideas::{Idea, IdeaBasis};
+use crate::search::check::second_prime::have_same_edges;
 use crate::search::diagram::{Diagram, Stop};
 use crate::search::question::conditions;
 use crate::synthesis::mechanism::bare_file;
@@ -181,17 +182,6 @@ fn at_random(
     built_mechanism(&structure.name(), &file)
 }
 
-/// Returns true if two diagrams in the same order have the same variants.
-fn same_diagrams(a: &Diagram, b: &Diagram) -> bool {
-    let layers = a.layers.iter().zip(&b.layers);
-    [a, b].iter().all(|d| d.stop == Stop::Exhausted)
-        && a.terminals == b.terminals
-        && a.layers.len() == b.layers.len()
-        && layers
-            .into_iter()
-            .all(|(a, b)| (a.variable, &a.edges) == (b.variable, &b.edges))
-}
-
 impl General {
     /// Searches the pair of a structure at two random places, each over a prime; both must agree. A structure that is symmetric or has
     /// parallelograms is searched by itself, at places that keep its rules. Returns `None` if it has no such places, or if the node budget ends
@@ -223,7 +213,7 @@ impl General {
             if diagram.stop != Stop::Exhausted {
                 return Ok(None);
             }
-            if same_diagrams(diagram, &twin) {
+            if twin.stop == Stop::Exhausted && have_same_edges(diagram, &twin) {
                 let request = search_request(spec);
                 return Ok(Some(General {
                     counts: one.count_variants(diagram, false).by_mobility_and_changes,

@@ -237,7 +237,7 @@ fn lay_structure(
         return Ok(Err(NoLayout::NotRegular));
     }
     let variants = variants.map_or_else(|| of_its_own(built, spec), Ok)?;
-    let text = write::toml(&as_file.file, &[]).map_err(|e| RowError::File {
+    let text = write::toml(&as_file.file).map_err(|e| RowError::File {
         structure: structure.name(),
         why: e.to_string(),
     })?;

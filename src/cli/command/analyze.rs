@@ -5,7 +5,7 @@ use crate::cli::prelude::*;
 use crate::file::read::workload::motion::parse_stroke;
 use crate::rank::method::{MobilityMethod, RankOfJ, registry};
 use crate::rank::rounded::verdict::rank_verdict;
-use crate::rank::stroke::request::AskedStroke;
+use crate::rank::stroke::analysis::StrokeRequest;
 use crate::view::analysis::mobility::{ByMethod, next as steps};
 use crate::view::analysis::{Analysis, State, suggestions};
 use crate::view::stroke::StrokeData;
@@ -77,7 +77,7 @@ pub(crate) fn run_analyze(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
     let asked = a.stroke.as_ref().map(|_| rank_verdict(&mechanism, over));
     let asked = asked.transpose()?;
     let stroke = match (&a.stroke, &asked) {
-        (Some(range), Some(verdict)) => Some(AskedStroke::new(
+        (Some(range), Some(verdict)) => Some(StrokeRequest::new(
             &mechanism,
             over,
             range,

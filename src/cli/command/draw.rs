@@ -4,7 +4,7 @@ use crate::cli::option::request::Which;
 use crate::cli::option::variant::Chosen;
 use crate::cli::option::{self as picture, variant};
 use crate::cli::prelude::*;
-use crate::draw::{self, Drawing, Moved, Sight, Size, Subject};
+use crate::draw::{self, Drawing, Moved, Sight, Subject};
 use crate::page::moving::Moving;
 use crate::redundancy::stress::SelfStress;
 use crate::view::analysis::Analysis;
@@ -55,14 +55,9 @@ pub(crate) struct Draw {
     /// Joint that moves instead of the file's drive: 0-1, or 0-1:tz for one of several freedoms.
     #[arg(long, value_name = "JOINT")]
     drive: Option<String>,
-    /// PNG instead of SVG (if built with the feature `png`); a file named .png is always PNG.
-    #[arg(long)]
-    png: bool,
-    /// Pixels of a PNG per pixel of the drawing [default: 2].
-    #[arg(long, value_name = "X")]
-    scale: Option<f64>,
-    /// Width of a PNG in pixels.
-    #[arg(long, value_name = "PIXELS", conflicts_with = "scale")]
+    /// Width in pixels of a PNG, which a file named .png is if ozols was built with the feature `png` [default: twice that of the
+    /// drawing].
+    #[arg(long, value_name = "PIXELS")]
     width: Option<u32>,
     #[command(flatten)]
     to: ToFile,
@@ -113,7 +108,7 @@ fn parse_numbers(text: &str) -> Option<[f64; 3]> {
 }
 
 pub(crate) fn run_draw(_: &Global, a: &Draw) -> anyhow::Result<Done> {
-    let wanted = png_size(a)?;
+    let is_png = wants_png(a)?;
     ensure!(
         a.shows_motion()
             || a.self_stress.is_some()
@@ -142,9 +137,10 @@ pub(crate) fn run_draw(_: &Global, a: &Draw) -> anyhow::Result<Done> {
         marks,
     };
     let drawing = make_drawing(a, &subject, &found)?;
-    let bytes = match wanted {
-        Some(size) => picture::render_png(&drawing, size)?,
-        None => drawing.svg.into_bytes(),
+    let bytes = if is_png {
+        picture::render_png(&drawing, a.width)?
+    } else {
+        drawing.svg.into_bytes()
     };
     a.to.write_all_of(bytes)
 }
@@ -225,22 +221,17 @@ fn draw_moving(
     })
 }
 
-/// Returns the size of the PNG, if one is asked for. Reports mistakes before any work is done.
-fn png_size(a: &Draw) -> anyhow::Result<Option<Size>> {
+/// Returns true if the drawing is to be a PNG. Reports mistakes before any work is done.
+fn wants_png(a: &Draw) -> anyhow::Result<bool> {
     output::not_to_terminal(a.to.path(), "a drawing")?;
-    if !a.png && !picture::named(a.to.path()) {
-        ensure!(
-            a.scale.is_none() && a.width.is_none(),
-            "--scale and --width are for PNG; add --png, or -o with a name that ends in .png (SVG scales to any size)"
-        );
-        return Ok(None);
+    let is_png = picture::named(a.to.path());
+    if is_png {
+        picture::ensure_png()?;
     }
-    picture::ensure_png()?;
-    let scale = a.scale.unwrap_or(picture::SCALE);
     ensure!(
-        scale > 0.0 && scale <= 100.0,
-        "--scale must be above 0 and at most 100"
+        is_png || a.width.is_none(),
+        "--width is for PNG; add -o with a name that ends in .png (SVG scales to any size)"
     );
     ensure!(a.width != Some(0), "--width must be at least 1");
-    Ok(Some(a.width.map_or(Size::Scale(scale), Size::Width)))
+    Ok(is_png)
 }

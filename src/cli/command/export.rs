@@ -1,14 +1,12 @@
 //! `ozols export`.
 
-use crate::cli::command::robot::types::plan_variant;
 use crate::cli::option::reading::{Reading, import_description};
 use crate::cli::option::request::Which;
 use crate::cli::option::variant;
-use crate::cli::option::variant::{Chosen, print_note};
+use crate::cli::option::variant::Chosen;
 use crate::cli::prelude::*;
 use crate::robots::formats::{self, Format, FormattedFile};
-use crate::robots::{self, Imported};
-use crate::view::lint::describe_release;
+use crate::robots::{Imported, KINEMATICS};
 use clap::builder::{PossibleValue, PossibleValuesParser};
 
 /// The formats of the mechanism file: TOML, which holds exact numbers, and the same as JSON.
@@ -43,9 +41,6 @@ fn parse_format() -> PossibleValuesParser {
 }
 
 pub(crate) fn run_export(_: &Global, a: &Export) -> anyhow::Result<Done> {
-    if formats::is_own(&a.to) {
-        return write_own(a);
-    }
     let request = a.chosen.list_request(a.which.request(a.state.as_deref())?);
     let imported = import_file(a)?;
     if let Some(imported) = &imported
@@ -57,7 +52,7 @@ pub(crate) fn run_export(_: &Global, a: &Export) -> anyhow::Result<Done> {
     let (mut m, left_behind) = match imported {
         Some(imported) => {
             load::tell_doubts(&a.file, &imported);
-            (imported.mechanism, imported.report.left_behind())
+            (imported.mechanism, Some(KINEMATICS))
         }
         None => (load::load_written(&a.file)?, None),
     };
@@ -89,8 +84,7 @@ fn import_file(a: &Export) -> anyhow::Result<Option<Imported>> {
     Ok(None)
 }
 
-/// Writes the mechanism file of a description, with comments on what was merged and approximated, and says what was mapped and
-/// dropped.
+/// Writes the mechanism file of a description, with comments on what was merged and approximated.
 fn mechanism_file(a: &Export, imported: &Imported) -> anyhow::Result<Done> {
     let width = output::error_width();
     output::print_note(&fit_lines(&imported.report.text(&a.file), width));
@@ -111,40 +105,14 @@ fn mechanism_file(a: &Export, imported: &Imported) -> anyhow::Result<Done> {
     Ok(Done::Found)
 }
 
-/// Writes an assembly of a CAD program in its own format, with the joint types of the chosen variant.
-fn write_own(a: &Export) -> anyhow::Result<Done> {
-    let imported = import_description(a.file.path(), &a.reading.import_options()?)?;
-    ensure!(
-        imported.format.word == a.to,
-        "--to {} writes a document of {} with other joint types; {} is not one",
-        a.to,
-        formats::writable_formats()
-            .find(|f| f.word == a.to)
-            .map_or("", |f| f.name),
-        a.file
-    );
-    let m = &imported.mechanism;
-    let request = a.chosen.list_request(a.which.request(a.state.as_deref())?);
-    let releases = match a.chosen.list_place() {
-        Some(k) => plan_variant(m, request, k, print_note)?.releases,
-        None => Vec::new(),
-    };
-    let told: Vec<(Release, String)> = releases
-        .into_iter()
-        .map(|r| (r, describe_release(m, &r)))
-        .collect();
-    let written = robots::apply_releases(&imported, &told)?;
-    a.out.write_all_of(written)
-}
-
 /// Converts a mechanism to a format and reports what is lost, after the notes of the import.
 pub(crate) fn export_text(
     m: &Mechanism,
     to: &str,
-    left_behind: Option<String>,
+    left_behind: Option<&str>,
 ) -> anyhow::Result<String> {
     let FormattedFile { text, told } = formats::export(m, to)?;
-    let told = left_behind.into_iter().chain(told);
+    let told = left_behind.map(str::to_owned).into_iter().chain(told);
     let told: String = told.map(|t| format!("  {t}\n")).collect();
     if !told.is_empty() {
         let all = format!("{} as {to}:\n{told}", m.name);

@@ -2,8 +2,8 @@
 
 use crate::cli::option::request::Checked;
 use crate::cli::prelude::*;
+use crate::cli::terminal::machine;
 use crate::cli::terminal::progress::SearchWatch;
-use crate::cli::terminal::{machine, memory};
 use crate::format::{format_duration, group_thousands};
 use crate::score::outcome::remarks::Remarks;
 use crate::score::request::Method;
@@ -151,11 +151,11 @@ pub(crate) fn run_search(args: &Global, a: &Search) -> anyhow::Result<Done> {
     })?;
     // The output itself is the same every time.
     if a.format == SearchFormat::Text && !args.quiet {
-        let allowed = memory::format_bytes(request.memory as u64);
+        let allowed = machine::format_bytes(request.memory as u64);
         let held = machine::peak_memory().map_or(String::new(), |peak| {
             format!(
                 ", {} of memory ({allowed} allowed)",
-                memory::format_bytes(peak)
+                machine::format_bytes(peak)
             )
         });
         output::print_note(&format!(

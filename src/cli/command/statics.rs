@@ -17,9 +17,78 @@ use crate::view::reactions::misfit::MisfitView;
 use crate::view::statics::Structures;
 use crate::view::statics::charts::cycle_charts;
 use crate::view::statics::told::{ToldReactions, ToldStatics};
-use args::{Statics, StaticsMethod};
+use clap::builder::PossibleValuesParser;
 
-pub(crate) mod args;
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum StaticsMethod {
+    /// The δ-point method, for four-link groups with a closed loop.
+    Delta,
+    /// Its projective form.
+    Projective,
+    /// The equilibrium equations of every link, for any group.
+    Equilibrium,
+    /// All three methods, and the differences between them.
+    All,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Statics {
+    #[command(flatten)]
+    file: File,
+    /// Method for the reactions of four-link groups with a closed loop.
+    #[arg(long, value_enum, default_value = "all")]
+    method: StaticsMethod,
+    /// Range of the first drive as FROM:TO:STEPS, for example 0:360deg:72 [default: the file's stroke]. Numbers without a unit
+    /// are radians, or the file's length unit for sliding drives.
+    #[arg(long, value_name = "FROM:TO:STEPS", allow_hyphen_values = true)]
+    stroke: Option<String>,
+    /// State of the file.
+    #[arg(long, default_value = "free")]
+    state: String,
+    /// In a state that [workload.grip] loads: part whose contact forces load the jaws, in the file's unit [default: the hardest
+    /// to hold].
+    #[arg(long, value_name = "D")]
+    diameter: Option<f64>,
+    /// Model the mechanism in its plane (normal z), even if the file is spatial.
+    #[arg(long)]
+    planar: bool,
+    /// Compute all six components of each joint's reaction, even with redundant constraints [default if a mechanism is not planar
+    /// or not determinate in its plane].
+    #[arg(long, conflicts_with_all = ["planar", "groups", "svg"])]
+    spatial: bool,
+    /// Let contacts with a clamped part only push, with the friction and faces of [[workload.contact]]. Otherwise they are the
+    /// joints of the file, and the report lists those that would pull.
+    #[arg(long, conflicts_with_all = ["groups", "svg"])]
+    unilateral: bool,
+    /// Print the assembly forces of inaccurate joints. Their tolerances are those of the file's [tolerances], or the general ones of
+    /// ISO 2768 for 30 to 120 mm: fine (0.15 mm, 0.5°), medium (0.3 mm, 0.5°) or coarse (0.8 mm, 1°) [default: those of the file,
+    /// else fine].
+    #[arg(long, value_name = "FIT", num_args = 0..=1, value_parser = PossibleValuesParser::new(Tolerances::NAMES), conflicts_with_all = ["planar", "spatial", "unilateral", "groups", "svg", "stroke", "diameter"])]
+    misfit: Option<Option<String>>,
+    /// Print only the Assur groups, under each possible drive.
+    #[arg(long, conflicts_with_all = ["svg", "stroke"])]
+    groups: bool,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    format: TextJsonOrCsv,
+    /// Also write charts of the cycle to this folder.
+    #[arg(long, value_name = "DIR")]
+    svg: Option<PathBuf>,
+    #[command(flatten)]
+    to: ToFile,
+}
+
+impl Statics {
+    /// Writes reactions in the format asked for; a text ends with what to do next.
+    fn put_reactions(&self, shown: &ToldStatics<'_>, next: &[NextCommand]) -> anyhow::Result<Done> {
+        let width = self.to.width();
+        self.to.write_all_of(match self.format {
+            TextJsonOrCsv::Json => output::json_text(&shown.json())?,
+            TextJsonOrCsv::Csv => shown.csv(),
+            TextJsonOrCsv::Text => shown.text(width) + &next_commands::steps_text(next, width),
+        })
+    }
+}
 
 pub(crate) fn run_statics(args: &Global, a: &Statics) -> anyhow::Result<Done> {
     let mut m = load::load_mechanism(&a.file)?;
@@ -30,7 +99,7 @@ pub(crate) fn run_statics(args: &Global, a: &Statics) -> anyhow::Result<Done> {
     match Gripping::new(&m, state) {
         // The nominal part is out of reach, so nothing is held.
         Err(JawError::Nominal(why)) => {
-            a.write_text(format!("{}: the part cannot be held: {why}\n", m.name))?;
+            a.to.write_all_of(format!("{}: the part cannot be held: {why}\n", m.name))?;
             return Ok(Done::Nothing);
         }
         found => match found? {
@@ -49,8 +118,8 @@ pub(crate) fn run_statics(args: &Global, a: &Statics) -> anyhow::Result<Done> {
     if a.groups {
         return run_groups(&m, state, a);
     }
-    if let Some(tolerances) = a.misfit {
-        return run_misfit(&m, state, tolerances, a, args.seed);
+    if let Some(fit) = &a.misfit {
+        return run_misfit(&m, state, fit.as_deref(), a, args.seed);
     }
     let stroke = match &a.stroke {
         Some(text) => Some(parse_stroke(text)?),
@@ -88,29 +157,24 @@ pub(crate) fn run_statics(args: &Global, a: &Statics) -> anyhow::Result<Done> {
 fn run_misfit(
     m: &Mechanism,
     state: StateId,
-    tolerances: Option<Tolerances>,
+    fit: Option<&str>,
     a: &Statics,
     seed: u64,
 ) -> anyhow::Result<Done> {
     let mut accuracy = m.loads.accuracy.clone().unwrap_or_default();
-    if let Some(usual) = tolerances {
+    if let Some(usual) = fit.and_then(Tolerances::named) {
         let hand_force = accuracy.hand_force;
         accuracy = Accuracy::uniform(usual);
         accuracy.hand_force = hand_force;
     }
-    accuracy.hand_force = a.hand_force.unwrap_or(accuracy.hand_force);
-    ensure!(
-        accuracy.hand_force >= 0.0 && accuracy.hand_force.is_finite(),
-        "--hand-force must be a force in N, at least 0"
-    );
     let view = MisfitView {
         mechanism: m,
         state,
         accuracy: &accuracy,
         found: &misfit(m, state, &accuracy, seed)?,
     };
-    a.write_text(match a.format {
-        TextJsonOrCsv::Text => view.text(output::output_width(a.output.as_deref())),
+    a.to.write_all_of(match a.format {
+        TextJsonOrCsv::Text => view.text(a.to.width()),
         TextJsonOrCsv::Json => output::json_text(&view.json())?,
         TextJsonOrCsv::Csv => bail!("assembly forces have no CSV; use --format json"),
     })?;
@@ -143,7 +207,7 @@ fn report_loose(
     why: &Unsolved,
     a: &Statics,
 ) -> anyhow::Result<Done> {
-    a.write_text(match a.format {
+    a.to.write_all_of(match a.format {
         TextJsonOrCsv::Json => output::json_text(&NotHeld::because(m, state, &why.to_string()))?,
         TextJsonOrCsv::Csv | TextJsonOrCsv::Text => {
             format!("{}, state {}: {why}\n", m.name, a.state)
@@ -200,10 +264,10 @@ fn run_groups(m: &Mechanism, state: StateId, a: &Statics) -> anyhow::Result<Done
         planar: &planar,
         found: &found,
     };
-    a.write_text(match a.format {
+    a.to.write_all_of(match a.format {
         TextJsonOrCsv::Json => output::json_text(&shown.json())?,
         TextJsonOrCsv::Csv => bail!("--groups has no CSV; use --format json"),
-        TextJsonOrCsv::Text => shown.text(output::output_width(a.output.as_deref())),
+        TextJsonOrCsv::Text => shown.text(a.to.width()),
     })?;
     Ok(Done::found_or_nothing(
         found.iter().any(|x| x.found.is_ok()),
@@ -264,7 +328,7 @@ pub(crate) fn run_clamped(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
 /// Says why there are no forces: exit code 1.
 fn not_held(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
     let shown = NotHeld::new(g);
-    a.write_text(match a.format {
+    a.to.write_all_of(match a.format {
         TextJsonOrCsv::Json => output::json_text(&shown)?,
         TextJsonOrCsv::Csv | TextJsonOrCsv::Text => shown.text(),
     })?;

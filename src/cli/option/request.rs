@@ -1,7 +1,7 @@
 //! Search options, the same for every command that searches.
 
 use crate::api;
-use crate::cli::terminal::memory;
+use crate::cli::terminal::machine;
 use crate::file::text::{MAX_BYTES, text_of};
 use crate::model::ranking::Term;
 use crate::score::request::words::weighted_term;
@@ -119,7 +119,7 @@ pub(crate) struct Which {
     nodes: usize,
     /// Memory limit of the search, for example 500M or 2G [default: a quarter of the machine's memory]. If it is reached, counts
     /// are lower bounds, as with --nodes.
-    #[arg(long, value_name = "BYTES", value_parser = memory::parse_bytes)]
+    #[arg(long, value_name = "BYTES", value_parser = machine::parse_bytes)]
     #[serde(skip)]
     pub(crate) memory: Option<usize>,
 }
@@ -180,7 +180,7 @@ impl Which {
             forbid: self.forbid.iter().map(joint_options).collect(),
             costs: self.costs.as_deref().map(cost_file).transpose()?,
             symmetry,
-            memory: self.memory.unwrap_or_else(memory::quarter_of_memory),
+            memory: self.memory.unwrap_or_else(machine::quarter_of_memory),
             rank: rank.map_err(|e| anyhow::anyhow!("--rank: {e}"))?,
             // All other options are fields of a request.
             ..serde_json::from_value(json!(self))?

@@ -7,7 +7,6 @@ use super::said::{Reply, Said, Tally};
 use super::timing::Clock;
 use crate::chart::{Axis, Chart, Scale, Series, Style, page};
 use crate::format::{csv, round_digits};
-use crate::score::outcome::pareto::front;
 use rayon::prelude::*;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -264,6 +263,23 @@ impl Study {
             .collect();
         front(&points).into_iter().map(|i| rows[i]).collect()
     }
+}
+
+/// Returns the indices of the points that are right more often than all faster ones, the fastest first. Points are (seconds,
+/// share).
+fn front(points: &[(f64, f64)]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|&a, &b| {
+        let ((t, share), (u, other)) = (points[a], points[b]);
+        t.total_cmp(&u).then(other.total_cmp(&share))
+    });
+    let mut best = f64::NEG_INFINITY;
+    order.retain(|&i| {
+        let ahead = points[i].1 > best;
+        best = best.max(points[i].1);
+        ahead
+    });
+    order
 }
 
 /// Returns the values of a row that have replies or a figure.

@@ -1,7 +1,6 @@
 //! Results of a search: counts, their checks, and the variants one by one.
 
 pub mod listing;
-pub mod pareto;
 mod proof;
 pub(in crate::score) mod ranked;
 pub mod ranking;

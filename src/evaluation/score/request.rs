@@ -40,7 +40,7 @@ pub struct JointOptions {
 pub struct CostFile {
     /// Its name.
     pub name: String,
-    /// Its text; see [`costs_from_str`](crate::file::costs::costs_from_str).
+    /// Its text; see [`costs_from_str`](crate::file::read::search::costs_from_str).
     pub text: String,
 }
 

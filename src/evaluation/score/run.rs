@@ -247,11 +247,8 @@ fn build_diagrams(
 
 /// Returns the numbers of determinate and admissible variants.
 fn count_found(search: &Search, diagrams: &Diagrams, request: &Request) -> SearchCounts {
-    let mut counts = if request.only_sums && request.symmetry != Symmetry::OnePerOrbit {
-        SearchCounts::sums_of(search, diagrams)
-    } else {
-        SearchCounts::of_diagrams(search, diagrams)
-    };
+    let both = !request.only_sums || request.symmetry == Symmetry::OnePerOrbit;
+    let mut counts = SearchCounts::by_kind(search, diagrams, both);
     // What is cut down elsewhere may have none of the cheapest.
     if let Some(best) = &diagrams.cheapest {
         let known = search.count_variants(&best.diagram, true);

@@ -1,13 +1,9 @@
 //! Files on the disk, read only up to a bound; all files of any size are read in this way. Each is recorded as read.
 //!
 //! The module knows which file a name refers to, and which files were read, so that a command does not overwrite its input.
-//!
-//! It also finds files that a killed run left half written: a process that writes a temporary file holds its lock, so an unlocked
-//! one was abandoned.
 
 use std::collections::BTreeSet;
-use std::ffi::OsStr;
-use std::fs::{self, File, Metadata, OpenOptions};
+use std::fs::{self, File, Metadata};
 use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -135,44 +131,4 @@ pub fn open_was_read(file: &Metadata) -> bool {
 pub fn is_at(file: &Metadata, path: &Path) -> bool {
     let id = file_number(file);
     id.is_some() && id == fs::metadata(path).ok().and_then(|m| file_number(&m))
-}
-
-/// Removes the files of a folder that `are_ours` accepts by name and that no process has locked.
-pub fn clean_leftovers(folder: &Path, are_ours: impl Fn(&OsStr) -> bool) {
-    let Ok(all) = fs::read_dir(folder) else {
-        return;
-    };
-    let ours = all.flatten().filter(|f| are_ours(&f.file_name()));
-    for file in ours.filter(|f| f.file_type().is_ok_and(|t| t.is_file())) {
-        let path = file.path();
-        // A file system without locks keeps them, because their owner is unknown.
-        let held = OpenOptions::new().write(true).open(&path);
-        if held.is_ok_and(|f| f.try_lock().is_ok()) {
-            let _ = fs::remove_file(path);
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::clean_leftovers;
-    use std::fs::{self, File};
-
-    #[test]
-    fn what_is_held_or_somebody_elses_stays() {
-        let folder = std::env::temp_dir().join(format!("ozols-leftover-{}", std::process::id()));
-        fs::create_dir_all(folder.join("x.folder")).unwrap();
-        let make = |name: &str| File::create(folder.join(name)).unwrap();
-        let held = make("x.held");
-        held.lock().unwrap();
-        drop((make("x.left"), make("y.other")));
-        clean_leftovers(&folder, |name| name.to_string_lossy().starts_with("x."));
-        let mut there: Vec<_> = fs::read_dir(&folder)
-            .unwrap()
-            .map(|f| f.unwrap().file_name().into_string().unwrap())
-            .collect();
-        there.sort();
-        assert_eq!(there, ["x.folder", "x.held", "y.other"]);
-        fs::remove_dir_all(&folder).unwrap();
-    }
 }

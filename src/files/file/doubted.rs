@@ -144,7 +144,10 @@ pub(super) fn find_rounding(m: &Mechanism) -> Vec<ProblemKind> {
     let all = nearly_special_relations(m);
     if !all.is_empty() {
         let what = first_of(&all, TOLD);
-        out.push(ProblemKind::NearlySpecial { what });
+        let message = format!(
+            "nearly special: {what}; make them exact if this is intended, or give their uncertainty in a [tolerance] table"
+        );
+        out.push(message.into());
     }
     out
 }

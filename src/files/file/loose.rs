@@ -56,7 +56,7 @@ pub fn connected_part(file: &MechanismFile) -> Option<MechanismFile> {
     let mut whole = file.clone();
     // Their states may be gone.
     whole.expected.clear();
-    let text = toml(&whole, &[]).ok()?;
+    let text = toml(&whole).ok()?;
     let text = apply_edits(&text, &[Edit::Remove { items }]).ok()?;
     read_file("part.toml", &text, |part| Ok(part.clone())).ok()
 }

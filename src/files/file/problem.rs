@@ -38,10 +38,6 @@ pub enum ProblemKind {
     )]
     Rigid { links: usize },
     #[error(
-        "nearly special: {what}; make them exact if this is intended, or give their uncertainty in a [tolerance] table"
-    )]
-    NearlySpecial { what: String },
-    #[error(
         "no loop is closed in any state, so nothing can be redundant; add the joints that close a loop"
     )]
     NoContour,

@@ -4,7 +4,7 @@ pub mod coupling;
 mod joints;
 #[doc(hidden)]
 pub mod resolve;
-pub(crate) mod search;
+pub mod search;
 pub mod value;
 pub mod workload;
 
@@ -24,6 +24,8 @@ use crate::format::join_or;
 use crate::model::claim::{Claim, Topic};
 use crate::model::loads::Loads;
 use crate::model::mechanism::{Expected, Mode, PointOfInterest, SearchSpec};
+use serde_json::Value;
+use std::sync::Arc;
 
 /// Returns the claims of a file; reports those of an unknown topic.
 pub(crate) fn read_claims(file: &MechanismFile, out: &Findings) -> Vec<Claim> {
@@ -106,6 +108,7 @@ pub fn build_mechanism(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> 
         expected: Vec::new(),
         claims: Vec::new(),
         assumed: file.assumed.clone(),
+        tables: Arc::default(),
     };
     check_connected(&mechanism, &out);
     if !check_matrix_size(&mechanism, &out) {
@@ -114,10 +117,10 @@ pub fn build_mechanism(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> 
     read_couplings(file, &mut mechanism, &out);
     mechanism.contours = read_contours(file, &mechanism, &out);
     mechanism.search = read_search(file, &mechanism, &out);
-    mechanism.loads = read_loads(file, &mechanism, &out);
-    mechanism.loads.grip = read_grip(file, length_unit.metres, Some(&mechanism), &out);
-    mechanism.loads.drive = read_drive(file, length_unit.metres, Some(&mechanism), &out);
-    mechanism.ranking = read_ranking(file, &mechanism, &out);
+    let before = out.used.take();
+    read_tables(file, &mut mechanism, &out);
+    mechanism.tables = Arc::new(keep_tables(file, &mechanism, &out.used.borrow()));
+    out.used.borrow_mut().extend(before);
     let (joint_types, costs) = joint_types(file, &mechanism, &out);
     mechanism.joint_types = joint_types;
     let by_type = &mut mechanism.search.costs.by_type_milli;
@@ -140,6 +143,40 @@ pub fn build_mechanism(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> 
             Err(out.into_findings())
         }
     }
+}
+
+/// Reads the loads and the ranking of a mechanism whose links and joints are known.
+pub(crate) fn read_tables(file: &MechanismFile, m: &mut Parts, out: &Findings) {
+    let metres = m.length_unit.metres;
+    m.loads = read_loads(file, m, out);
+    m.loads.grip = read_grip(file, metres, Some(m), out);
+    m.loads.drive = read_drive(file, metres, Some(m), out);
+    m.ranking = read_ranking(file, m, out);
+}
+
+/// Returns the tables that are written back as they are, with the parameters that they use.
+fn keep_tables(file: &MechanismFile, m: &Parts, used: &BTreeSet<String>) -> Value {
+    let parameters = file
+        .parameter
+        .iter()
+        .filter(|(name, _)| used.contains(*name));
+    let mut kept = MechanismFile {
+        name: file.name.clone(),
+        parameter: parameters.map(|(k, v)| (k.clone(), v.clone())).collect(),
+        workload: file.workload.clone(),
+        tolerances: file.tolerances.clone(),
+        ranking: file.ranking.clone(),
+        expected: file.expected.clone(),
+        claim: file.claim.clone(),
+        ..MechanismFile::default()
+    };
+    if let (Some(entry), Some(spec)) = (&mut kept.workload.drive, &m.loads.drive)
+        && entry.disc_link.take().is_some()
+    {
+        // A redesign may have another joint at this link.
+        entry.inertia = Some(Coordinate::Decimal(spec.inertias[0]));
+    }
+    kept.json()
 }
 
 fn read_points(file: &MechanismFile, mechanism: &Parts, out: &Findings) -> Vec<PointOfInterest> {

@@ -46,16 +46,16 @@ pub struct MechanismFile {
     pub parameter: BTreeMap<String, Coordinate>,
     /// Accuracy of the numbers. Default: half a unit of their last digit.
     pub tolerance: Option<ToleranceEntry>,
-    /// The rigid bodies.
+    /// The rigid bodies, each in a table. Exactly one is the frame, and at least one an output.
     #[serde(default)]
     pub link: Vec<LinkEntry>,
-    /// The joints.
+    /// The joints, each in a table.
     #[serde(default)]
     pub joint: Vec<JointEntry>,
     /// Joints that move in a fixed ratio: gears, belts, racks, mimic joints.
     #[serde(default)]
     pub coupling: Vec<CouplingEntry>,
-    /// A basis of loops, if a particular one is required.
+    /// A basis of loops, if a particular one is required. Default: the shortest loops.
     #[serde(default)]
     pub contour: Vec<ContourEntry>,
     /// Points of interest on links. Drawings show them and their paths over a stroke.
@@ -114,7 +114,7 @@ pub struct JointEntry {
     pub kind: String,
     /// Freedoms of a custom joint: rx, ry, rz, tx, ty, tz, screw.
     pub freedoms: Option<Vec<String>>,
-    /// Origin of the joint's frame.
+    /// Origin of the joint's frame. Each coordinate is a number, or an exact expression in quotes such as "sqrt(3)/2", "cos(36deg)", "1/3".
     pub point: [Coordinate; 3],
     /// Direction of z (joint axis), of any length. Default for spherical and fixed joints: z.
     pub axis: Option<[Coordinate; 3]>,

@@ -13,45 +13,6 @@ use toml_edit::{DocumentMut, Item, TomlError};
 /// Columns of a comment.
 const COLUMNS: usize = 100;
 
-/// Advice on what to edit, by the path of the key; the schema describes each key.
-const ADVICE: [(&str, &str); 11] = [
-    ("description", "Describe your mechanism."),
-    ("sources", "Give your own sources, or delete this."),
-    (
-        "link",
-        "Begin each with [[link]]. Exactly one is the frame, at least one an output.",
-    ),
-    (
-        "joint",
-        "Begin each with [[joint]]. Points, axes and types are what to edit first.",
-    ),
-    (
-        "joint.point",
-        "Each coordinate is a number, or an exact expression in quotes such as \"sqrt(3)/2\", \"cos(36deg)\", \"1/3\".",
-    ),
-    (
-        "contour",
-        "Optional; by default the shortest loops are used. Edit these when you add or remove joints, or delete them.",
-    ),
-    ("search", "List the joint types that you can make."),
-    (
-        "search.mirror",
-        "Delete this if your mechanism is not symmetric.",
-    ),
-    (
-        "tolerances",
-        "How accurately the joints are made: a named fit, or position and angle.",
-    ),
-    (
-        "ranking",
-        "Without this table the cheapest variants come first.",
-    ),
-    (
-        "expected",
-        "They hold for the built-in mechanism: `ozols check` reports where yours differs. Change or delete them.",
-    ),
-];
-
 /// Returns the text of a mechanism file without claims of publications and without expected figures.
 ///
 /// # Errors
@@ -89,9 +50,8 @@ pub fn without_claims(text: &str) -> Result<String, TomlError> {
 pub fn with_comments(text: &str, from: &str, name: &str) -> Result<String, TomlError> {
     let mut document: DocumentMut = text.parse()?;
     document.remove("claim");
-    let (root, text) = (json_schema(), document.to_string());
-    let whole = toml::from_str(&text).unwrap_or_default();
-    let mut document: DocumentMut = comment_lines(&text, &root, &whole).parse()?;
+    let text = comment_lines(&document.to_string(), &json_schema());
+    let mut document: DocumentMut = text.parse()?;
     // Last, because a name may have several lines.
     if let Some(old) = document.get_mut("name").and_then(Item::as_value_mut) {
         let decor = old.decor().clone();
@@ -104,21 +64,14 @@ pub fn with_comments(text: &str, from: &str, name: &str) -> Result<String, TomlE
         "{name}: a mechanism for ozols, made from the built-in {from} by `ozols new`."
     ));
     say(
-        "Edit it, then run `ozols check FILE` for errors, `ozols analyze FILE` for redundant constraints, `ozols search FILE` for redesigns.",
+        "Edit it, then run `ozols check FILE` for errors, `ozols analyze FILE` for redundant constraints, `ozols search FILE` for redesigns. `ozols schema` has all tables and keys.",
     );
-    let more = unused_keys(&root, &[&whole]);
-    if !more.is_empty() {
-        say(&format!(
-            "Keys and tables that it does not use: {} (see `ozols schema`).",
-            more.join(", ")
-        ));
-    }
     head.push('\n');
     Ok(head + &document.to_string())
 }
 
 /// Returns the lines of a text, with a comment above the first table and the first key of each kind: before the comments that it has.
-fn comment_lines(text: &str, root: &Value, whole: &Value) -> String {
+fn comment_lines(text: &str, root: &Value) -> String {
     let (mut out, mut own, mut table) = (String::new(), String::new(), String::new());
     let mut seen = BTreeSet::new();
     for line in text.lines() {
@@ -139,9 +92,8 @@ fn comment_lines(text: &str, root: &Value, whole: &Value) -> String {
         };
         let found = schema_at(root, &path).filter(|(at, ..)| seen.insert(at.clone()));
         let mut words = String::new();
-        if let Some((at, property, inner)) = found {
-            explain_key(&mut words, property, inner, &at);
-            explain_keys_below(&mut words, inner, &values_at(whole, &path), head.is_some());
+        if let Some((_, property, inner)) = found {
+            explain_key(&mut words, property, inner);
         }
         // An empty comment separates added comments from those of the file.
         if !words.is_empty() && !own.is_empty() {
@@ -166,16 +118,6 @@ fn schema_at<'s>(root: &'s Value, path: &str) -> Option<(String, &'s Value, &'s 
     Some((at.join("."), property, inner))
 }
 
-/// Returns the values of a key in all tables of its kind, and those of lists one by one.
-fn values_at<'v>(whole: &'v Value, path: &str) -> Vec<&'v Value> {
-    let each = |all: Vec<&'v Value>, key: &str| {
-        let inner = all.into_iter().filter_map(|v| v.get(key));
-        let lists = inner.map(|v| v.as_array().map_or(std::slice::from_ref(v), Vec::as_slice));
-        lists.flatten().collect()
-    };
-    path.split('.').fold(vec![whole], each)
-}
-
 /// Returns the definition that a property, the items of its list, or one of its alternatives refers to.
 fn resolve_schema<'s>(root: &'s Value, property: &'s Value) -> Option<&'s Value> {
     if let Some(reference) = property["$ref"].as_str() {
@@ -193,46 +135,14 @@ fn resolve_schema<'s>(root: &'s Value, property: &'s Value) -> Option<&'s Value>
         .find_map(|p| resolve_schema(root, p))
 }
 
-/// Explains a key and what to edit.
-fn explain_key(out: &mut String, property: &Value, inner: &Value, path: &str) {
-    let own = property["description"].as_str().unwrap_or_default();
-    let mut text = own.to_owned();
-    if let Some((_, advice)) = ADVICE.iter().find(|(key, _)| *key == path) {
-        text = format!("{text} {advice}");
+/// Explains a key. Conventions of a table, such as its units, are in its definition.
+fn explain_key(out: &mut String, property: &Value, inner: &Value) {
+    let about = |v: &Value| v["description"].as_str().map(str::to_owned);
+    write_comment(out, &about(property).unwrap_or_default());
+    let convention = about(inner).filter(|d| d.contains("in the file's unit"));
+    if inner.get("properties").is_some() {
+        write_comment(out, &convention.unwrap_or_default());
     }
-    write_comment(out, &text);
-    // Conventions of a table, such as its units, are in its definition.
-    let convention = inner["description"]
-        .as_str()
-        .filter(|d| d.contains("in the file's unit") && inner.get("properties").is_some());
-    if let Some(text) = convention {
-        write_comment(out, text);
-    }
-}
-
-/// Lists the keys that a table may also have, or explains those of tables in braces.
-fn explain_keys_below(out: &mut String, schema: &Value, values: &[&Value], is_table: bool) {
-    let more = unused_keys(schema, values);
-    if is_table {
-        if !more.is_empty() {
-            write_comment(out, &format!("It may also have: {}.", more.join(", ")));
-        }
-        return;
-    }
-    let known = schema["properties"].as_object().into_iter().flatten();
-    for (key, property) in known.filter(|(key, _)| !more.contains(&key.as_str())) {
-        if let Some(d) = property["description"].as_str() {
-            write_comment(out, &format!("{key}: {d}"));
-        }
-    }
-}
-
-/// Returns the keys of a schema that none of some tables has.
-fn unused_keys<'s>(schema: &'s Value, tables: &[&Value]) -> Vec<&'s str> {
-    let known = schema["properties"].as_object();
-    let known = known.into_iter().flat_map(|k| k.keys()).map(String::as_str);
-    let unused = |k: &&str| tables.iter().all(|t| t.get(k).is_none());
-    known.filter(unused).collect()
 }
 
 /// Appends a comment, filled to the columns.
@@ -313,22 +223,11 @@ mod tests {
             ("# Mass in kg.", "mass = 0.25"),
             ("# Name, unique among joints.", "id = \"0-1\""),
             ("# The force in N.", "force = [0, 60, 0]"),
-            ("# weight: Weight of the term. Default: 1.", "terms = ["),
         ] {
             assert_eq!(new.matches(comment).count(), 1, "{comment}\n{new}");
             let at = new.find(comment).expect("counted");
             let line = new[at..].lines().nth(1);
             assert_eq!(line, Some(key), "{comment}");
-        }
-        assert!(new.contains("It may also have: "), "{new}");
-    }
-
-    #[test]
-    fn every_advice_is_of_a_key_that_exists() {
-        let root = crate::file::schema::json_schema();
-        for (path, _) in super::ADVICE {
-            let (at, property, _) = super::schema_at(&root, path).unwrap();
-            assert!(at == path && property.is_object(), "{path}");
         }
     }
 }

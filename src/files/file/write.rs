@@ -1,28 +1,25 @@
 //! A mechanism as the entries of its file, exactly.
 
 mod number;
-mod workload;
 
 use crate::file::prelude::*;
+use crate::file::read::read_tables;
 use crate::file::read::resolve::motion_name;
+use crate::file::read::value::with_parameters;
 pub(crate) use crate::file::write::number::plain_number;
 use crate::file::write::number::{write_component, write_coordinate, write_ratio};
-use crate::model::claim::Claim;
-use crate::model::loads::{ExternalForce, ExternalMoment, Face, Inertia, Misalignment};
-use crate::model::mechanism::{Drives, Expected, Mode, PointOfInterest};
-use serde::ser::Error;
-use toml_edit::{DocumentMut, Item};
+use crate::model::loads::Inertia;
+use crate::model::mechanism::{Drives, Mode, PointOfInterest};
+use serde::Deserialize;
 
-/// Columns of a comment, without its mark.
-const LONGEST_COMMENT: usize = 110;
-
-/// Returns the file of a mechanism. Options that the file had in common are listed at each joint; nothing else is changed.
+/// Returns the file of a mechanism. Options that the file had in common are listed at each joint. Workload, ranking, figures and
+/// claims are those of the file that it was read from.
 ///
 /// # Examples
 /// ```
 /// use ozols::file::write::{mechanism_file, toml};
 /// let four_bar = ozols::built_in("four-bar")?;
-/// let again = ozols::from_toml(&toml(&mechanism_file(&four_bar), &[])?)?;
+/// let again = ozols::from_toml(&toml(&mechanism_file(&four_bar))?)?;
 /// assert_eq!(again.joints.len(), four_bar.joints.len());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -34,7 +31,7 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
     let contour = |list: &Vec<JointId>| ContourEntry {
         joints: list.iter().map(|&j| m.joints[j].id.clone()).collect(),
     };
-    let accuracy = m.loads.accuracy.as_ref();
+    let kept = kept_tables(m);
     let (mode, plane_normal) = match &m.mode {
         Mode::Spatial => (None, None),
         Mode::Planar { normal } => (Some("planar".to_owned()), Some(write_direction(normal))),
@@ -70,83 +67,58 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
         contour: m.contours.iter().map(contour).collect(),
         point: m.points.iter().map(point).collect(),
         search: write_search(m),
-        workload: write_workload(m),
-        tolerances: accuracy.map(|a| workload::write_accuracy(m, a)),
-        ranking: m.ranking.as_ref().map(|r| workload::write_ranking(m, r)),
-        joint_types: workload::joint_types(m),
-        expected: m.expected.iter().map(write_expected).collect(),
-        claim: m.claims.iter().map(write_claim).collect(),
-        ..MechanismFile::default()
+        joint_types: write_joint_types(m),
+        // A redesign has no figures and claims of its own.
+        expected: if m.expected.is_empty() {
+            Vec::new()
+        } else {
+            kept.expected
+        },
+        claim: if m.claims.is_empty() {
+            Vec::new()
+        } else {
+            kept.claim
+        },
+        ..kept
     }
 }
 
-/// A comment above a table of a file.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Comment {
-    /// The table's name, such as "joint".
-    table: &'static str,
-    /// Its index among the tables of that name.
-    index: usize,
-    /// The words.
-    text: String,
+/// Returns the tables that are written as the file has them, with the parameters that they use.
+fn kept_tables(m: &Mechanism) -> MechanismFile {
+    MechanismFile::deserialize(&*m.tables).unwrap_or_default()
 }
 
-impl Comment {
-    /// Creates a comment above the table of a name, the `index`th if there are several.
-    #[must_use]
-    pub fn new(table: &'static str, index: usize, text: &str) -> Comment {
-        Comment {
-            table,
-            index,
-            text: text.replace(char::is_control, " "),
-        }
-    }
+/// Returns true if the loads and the ranking are those of the file, which are written.
+pub(crate) fn has_own_tables(m: &Mechanism) -> bool {
+    let kept = kept_tables(m);
+    let mut out = with_parameters(&kept);
+    out.states.clone_from(&m.states);
+    let mut again = m.clone().into_parts();
+    read_tables(&kept, &mut again, &out);
+    let told = |m: &Parts| format!("{:?} {:?}", m.loads, m.ranking);
+    told(&again) == told(m)
+}
 
-    /// Returns the words as lines of TOML, starting with a blank one.
-    fn comment_lines(&self) -> String {
-        let (mut out, mut width) = (String::from("\n#"), 0);
-        for word in self.text.split_whitespace() {
-            if width > 0 && width + word.len() > LONGEST_COMMENT {
-                out.push_str("\n#");
-                width = 0;
-            }
-            width += usize::from(width > 0) + word.len();
-            out.push(' ');
-            out.push_str(word);
-        }
-        out + "\n"
-    }
+/// Returns the capacities of joint types; their costs are under `[search.costs]`.
+fn write_joint_types(m: &Mechanism) -> BTreeMap<String, JointTypeEntry> {
+    let each = m.joint_types.iter().map(|t| {
+        let entry = JointTypeEntry {
+            cost: None,
+            capacity_force: t.capacity_force,
+            capacity_moment: t.capacity_moment,
+            clearance: t.clearance,
+        };
+        (t.name.clone(), entry)
+    });
+    each.collect()
 }
 
 /// Writes a file as TOML.
 ///
 /// # Errors
 /// No error is known for the file of a validated mechanism.
-///
-/// # Examples
-/// ```
-/// use ozols::file::write::{Comment, mechanism_file, toml};
-/// let file = mechanism_file(&ozols::built_in("four-bar")?);
-/// let text = toml(&file, &[Comment::new("joint", 1, "from crank to coupler")])?;
-/// assert!(text.contains("# from crank to coupler\n[[joint]]"));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn toml(file: &MechanismFile, comments: &[Comment]) -> Result<String, toml::ser::Error> {
-    let text = toml::to_string(&file.json())?;
-    if comments.is_empty() {
-        return Ok(text);
-    }
-    let mut document: DocumentMut = text.parse().map_err(toml::ser::Error::custom)?;
-    for c in comments {
-        let table = match document.get_mut(c.table) {
-            Some(Item::ArrayOfTables(tables)) => tables.get_mut(c.index),
-            other => other.and_then(Item::as_table_mut),
-        };
-        if let Some(table) = table {
-            table.decor_mut().set_prefix(c.comment_lines());
-        }
-    }
-    Ok(document.to_string())
+pub fn toml(file: &MechanismFile) -> Result<String, toml::ser::Error> {
+    toml::to_string(&file.json())
 }
 
 /// Returns the word for a role.
@@ -310,105 +282,5 @@ fn write_inertia(i: Inertia) -> InertiaEntry {
         Inertia::Plane(x) => InertiaEntry::Plane(x),
         Inertia::Principal(v) => InertiaEntry::List(v.to_vec()),
         Inertia::Tensor(v) => InertiaEntry::List(v.to_vec()),
-    }
-}
-
-fn write_force(m: &Mechanism, f: &ExternalForce) -> ForceEntry {
-    let end = |x: f64| x.is_finite().then_some(Quantity::Number(x));
-    ForceEntry {
-        link: m.links[f.link].id.clone(),
-        point: write_vector(&f.point),
-        force: write_vector(&f.force),
-        from: f.range.and_then(|[from, _]| end(from)),
-        to: f.range.and_then(|[_, to]| end(to)),
-        state: state_names(m, f.states.as_ref()),
-    }
-}
-
-/// Returns an entry for each axis that a joint is rotated or shifted along, or one of zero rotation if there is none.
-fn write_misalignment(m: &Mechanism, x: &Misalignment) -> Vec<MisalignmentEntry> {
-    let none = x.turn == [0.0; 3] && x.shift == [0.0; 3];
-    let entry = |axis: &str, angle, length| MisalignmentEntry {
-        joint: m.joints[x.joint].id.clone(),
-        angle,
-        length,
-        axis: axis.to_owned(),
-    };
-    let turned = ["x", "y", "z"].into_iter().zip(x.turn);
-    let turned = turned
-        .filter(|(axis, turn)| *turn != 0.0 || none && *axis == "x")
-        .map(|(axis, turn)| entry(axis, Some(Quantity::Number(turn)), None));
-    let shifted = ["x", "y", "z"].into_iter().zip(x.shift);
-    let shifted = shifted
-        .filter(|(_, shift)| *shift != 0.0)
-        .map(|(axis, shift)| entry(axis, None, Some(shift / m.length_unit.metres)));
-    turned.chain(shifted).collect()
-}
-
-/// Returns the workload without masses, with positions and speeds as plain numbers.
-fn write_workload(m: &Mechanism) -> WorkloadEntry {
-    let loads = &m.loads;
-    let speed = |x: &f64| Quantity::Number(*x);
-    let moment = |x: &ExternalMoment| MomentEntry {
-        link: m.links[x.link].id.clone(),
-        moment: write_vector(&x.moment),
-        state: state_names(m, x.states.as_ref()),
-    };
-    let decimal = |x: f64| number::write_number(x, 1.0);
-    let face = |f: &Face| ContactEntry {
-        joint: m.joints[f.joint].id.clone(),
-        friction: f.friction.map(decimal),
-        radius: f.radius.map(decimal),
-    };
-    let by_type = loads.stiffness.iter();
-    let by_type = by_type.map(|(name, s)| {
-        let (linear, angular) = (s.linear, s.angular);
-        (name.clone(), StiffnessEntry { linear, angular })
-    });
-    let drive = loads.drive.as_ref();
-    let misaligned = loads.misalignments.iter();
-    WorkloadEntry {
-        gravity: loads.gravity.as_ref().map(write_vector),
-        force: loads.forces.iter().map(|f| write_force(m, f)).collect(),
-        moment: loads.moments.iter().map(moment).collect(),
-        contact: loads.faces.iter().map(face).collect(),
-        stiffness: by_type.collect(),
-        misalignment: misaligned.flat_map(|x| write_misalignment(m, x)).collect(),
-        drive_speed: match &loads.drive_speeds[..] {
-            [] => None,
-            [one] => Some(Quantities::One(speed(one))),
-            all => Some(Quantities::Many(all.iter().map(speed).collect())),
-        },
-        stroke: loads.stroke.map(|s| StrokeEntry {
-            from: Quantity::Number(s.from),
-            to: Quantity::Number(s.to),
-            steps: i64::try_from(s.steps).unwrap_or(i64::MAX),
-        }),
-        grip: loads.grip.as_ref().map(|g| workload::write_grip(m, g)),
-        drive: drive.map(|d| workload::write_drive(d, m.length_unit.metres)),
-    }
-}
-
-fn write_expected(e: &Expected) -> ExpectedEntry {
-    ExpectedEntry {
-        state: Some(e.state.clone()),
-        mobility: e.mobility,
-        finite_mobility: e.finite_mobility,
-        working_mobility: e.working_mobility,
-        local_mobility: e.local_mobility,
-        redundant: e.redundant,
-        external_redundant: e.external_redundant,
-        source: e.source.clone(),
-    }
-}
-
-fn write_claim(c: &Claim) -> ClaimEntry {
-    ClaimEntry {
-        topic: c.topic.as_word().to_owned(),
-        source: c.source.clone(),
-        says: c.says.clone(),
-        right: c.right.clone(),
-        scan: c.scan.clone(),
-        evidence: c.evidence.clone(),
     }
 }

@@ -35,12 +35,9 @@ pub(crate) fn add_coupling(e: Element<'_>, joints: [&str; 2], ratio: f64, robot:
         let [a, b] = c.joints.each_ref().map(String::as_str);
         (joints == [a, b] && c.ratio == ratio) || (joints == [b, a] && c.ratio * ratio == 1.0)
     };
-    let report = &mut robot.report;
-    if robot.couplings.iter().any(same) {
-        return report.count_dropped("duplicate coupling", Some(joints[1]));
+    if !robot.couplings.iter().any(same) {
+        robot.couplings.push(Ratio::new(joints, ratio, e));
     }
-    report.count_mapped("coupling of a plugin or controller");
-    robot.couplings.push(Ratio::new(joints, ratio, e));
 }
 
 /// Reads a plugin. A plugin that makes a joint follow another couples them. One that joins links until they are detached welds them.
@@ -66,7 +63,7 @@ pub(crate) fn read_plugin(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Rob
             } else {
                 format!("{model}::{child}")
             };
-            weld_links(e, &[absolute_name(scope, parent), child], scene, robot);
+            weld_links(e, &[absolute_name(scope, parent), child], scene, robot)?;
         }
         _ => leave_out(e, None, robot),
     }
@@ -74,21 +71,24 @@ pub(crate) fn read_plugin(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Rob
 }
 
 /// Welds two links in their drawn places. A weld of a missing link is omitted and counted.
-fn weld_links(e: Element<'_>, names: &[String; 2], scene: &SdfScene<'_>, robot: &mut Robot) {
+fn weld_links(
+    e: Element<'_>,
+    names: &[String; 2],
+    scene: &SdfScene<'_>,
+    robot: &mut Robot,
+) -> Read<()> {
     let [Ok((a, at)), Ok((b, _))] = names.each_ref().map(|n| moves_with(scene, n)) else {
         let [a, b] = names;
         let what = format!("it welds {a} to {b}, which are not both in the file; omitted");
-        return robot.report.leave_out_joint(&label_of(e), MOST_ROWS, what);
+        robot.report.leave_out_joint(&label_of(e), MOST_ROWS, what);
+        return Ok(());
     };
     if a == b {
-        let what = "weld of one link to itself";
-        return robot.report.count_dropped(what, Some(&names[0]));
+        return Ok(());
     }
     let ends = [a, b].map(|l| (l, robot.places[l].inverse().then(&at)));
     let id = format!("weld-{}-{}", names[0], names[1]);
-    if let Ok(part) = robot.close_loop(e, &id, ends, JointType::Fixed, "weld of a plugin") {
-        part.comment = Some(format!("closes a loop: {}", label_of(e)));
-    }
+    robot.close_loop(e, &id, ends, JointType::Fixed).map(drop)
 }
 
 /// Omits an element of unknown meaning. It is counted if its name suggests that it closes a loop or couples joints, or if it names several
@@ -102,7 +102,7 @@ pub(crate) fn leave_out(e: Element<'_>, own: Option<&str>, robot: &mut Robot) {
         None => has(HOLDS) || (!has(HARMLESS) && named.len() > 1),
     };
     if !holds {
-        return robot.report.count_dropped(e.name(), e.attribute("name"));
+        return;
     }
     let of = match named.iter().take(4).cloned().collect::<Vec<_>>().join(", ") {
         names if names.is_empty() => String::new(),
@@ -174,7 +174,7 @@ pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     }
     let [a, b] = ends.map(|end| &robot.links[end.0]);
     let id = format!("ball-{a}-{b}");
-    robot.close_loop(e, &id, ends, JointType::Spherical, "ball constraint")?;
+    robot.close_loop(e, &id, ends, JointType::Spherical)?;
     Ok(())
 }
 

@@ -101,11 +101,11 @@ impl Assembly {
         steps.iter().for_each(|s| tied[s.link] = true);
         let report = &mut robot.report;
         for ((name, _), _) in self.parts.iter().zip(&tied).filter(|(_, t)| !**t) {
-            report.count_dropped("part that is not connected to the ground", Some(name));
+            report.drop_element("part that is not connected to the ground", name);
         }
         let loose = |c: &&Connection| c.parts.iter().any(|&p| !tied[p]);
         for c in self.connections.iter().filter(loose) {
-            report.count_dropped("joint between floating parts", Some(&c.id));
+            report.drop_element("joint between floating parts", &c.id);
         }
         tied
     }
@@ -127,7 +127,6 @@ impl Assembly {
         };
         let part = make_part(c, links, &m, &robot.places, options);
         self.report_joint(c, &part, &m, options, robot);
-        robot.report.count_mapped(c.holds.word());
         robot.joints.push(part);
     }
 
@@ -145,7 +144,7 @@ impl Assembly {
             let apart = describe_misfit(apart, self.unit);
             if options.assemble {
                 let what = format!("{element}: its two frames are {apart} apart in the file");
-                robot.report.add_moved(what);
+                robot.report.moved.push(what);
             } else {
                 let what = format!(
                     "its two frames are {apart} apart; the figures use the pose of the file, and the joint lies at its first frame (the option `assemble` closes joints)"
@@ -218,7 +217,6 @@ fn add_coupling(c: &Connection, links: [usize; 2], robot: &mut Robot) {
         Ok(m) => m,
         Err(why) => return left_out(c, why, robot),
     };
-    robot.report.count_mapped(c.holds.word());
     let element = c.label();
     let said = (element.as_str(), c.element);
     if let Some(found) = find_coupling(&m, links, &robot.joints, &robot.places, said) {

@@ -50,8 +50,6 @@ pub(crate) struct Part {
     pub(in crate::robots) values: Vec<f64>,
     /// Limits of a joint of one freedom.
     pub(in crate::robots) limits: Option<(f64, f64)>,
-    /// The approximation, as a comment for the file.
-    pub(in crate::robots) comment: Option<String>,
     /// The element that defines it. `None` if a separate file does.
     pub(in crate::robots) element: Option<usize>,
     /// Distance between its two sides in its constrained directions, if the file places both: a length in the robot's unit, and radians.
@@ -86,7 +84,6 @@ impl Part {
             pulled: false,
             closes: false,
             limits: None,
-            comment: None,
             element: None,
             misfit: None,
         }
@@ -252,7 +249,6 @@ impl Robot {
         id: &str,
         ends: [End; 2],
         kind: JointType,
-        word: &str,
     ) -> Read<&mut Part> {
         let links = ends.map(|end| end.0);
         if links[0] == links[1] {
@@ -260,7 +256,6 @@ impl Robot {
         }
         let mut part = Part::new(id, links, ends.map(|end| end.1), kind).said_by(e);
         part.closes = true;
-        self.report.count_mapped(word);
         let at = self.joints.len();
         self.joints.push(part);
         Ok(&mut self.joints[at])

@@ -1,5 +1,6 @@
 //! The formats of files, with their readers and writers.
 
+use crate::file::schema::MechanismFile;
 use crate::file::write::{self, mechanism_file};
 use crate::robots::cad::archive::Archive;
 use crate::robots::cad::{asmt, fcstd};
@@ -13,13 +14,13 @@ pub struct Format {
     pub word: &'static str,
     /// The usual name.
     pub name: &'static str,
-    /// The content of the format.
+    /// The content of a written file.
     pub about: &'static str,
     /// Endings of files that are robot descriptions of this format.
     endings: &'static [&'static str],
     /// The root element and the reader, for a format that is read.
     read: Option<(&'static str, Describe)>,
-    /// The writer. Without one, a mechanism is only written into the document it was read from, as it has no shapes and references.
+    /// The writer, for a format that is written. A mechanism has no shapes and references, which CAD documents need.
     write: Option<Writer>,
 }
 
@@ -60,7 +61,7 @@ const fn format(word: &'static str, name: &'static str, about: &'static str) -> 
 /// All formats.
 static FORMATS: [Format; 8] = [
     Format {
-        write: Some(|m| Ok(write::toml(&mechanism_file(m), &[])?.into())),
+        write: Some(|m| Ok(write::toml(&own_file(m)?)?.into())),
         ..format(
             "toml",
             "TOML",
@@ -68,7 +69,7 @@ static FORMATS: [Format; 8] = [
         )
     },
     Format {
-        write: Some(|m| Ok(format!("{:#}\n", mechanism_file(m).json()).into())),
+        write: Some(|m| Ok(format!("{:#}\n", own_file(m)?.json()).into())),
         ..format("json", "JSON", "The same as JSON")
     },
     Format {
@@ -92,39 +93,18 @@ static FORMATS: [Format; 8] = [
     Format {
         endings: &["fcstd"],
         read: Some(("Document", fcstd::read_document)),
-        ..format(
-            "fcstd",
-            "FreeCAD",
-            "FILE, a FreeCAD document, with joints of other types",
-        )
+        ..format("fcstd", "FreeCAD", "")
     },
     Format {
         endings: &["asmt"],
         read: Some(("Assembly", asmt::read_assembly)),
-        ..format(
-            "asmt",
-            "OndselSolver",
-            "FILE, an assembly of FreeCAD's solver, with joints of other types",
-        )
+        ..format("asmt", "OndselSolver", "")
     },
     Format {
         write: Some(|m| Ok(write_dot(m).into())),
         ..format("dot", "DOT", "Graphviz")
     },
 ];
-
-/// Returns true if a format can only be written from files read in it, with joints changed.
-///
-/// # Examples
-/// ```
-/// use ozols::robots::formats::is_own;
-/// // A FreeCAD document has shapes that no mechanism has.
-/// assert!(is_own("fcstd") && !is_own("urdf"));
-/// ```
-#[must_use]
-pub fn is_own(word: &str) -> bool {
-    FORMATS.iter().any(|f| f.word == word && f.write.is_none())
-}
 
 /// Returns the formats in which a mechanism can be written.
 ///
@@ -134,7 +114,7 @@ pub fn is_own(word: &str) -> bool {
 /// assert!(["toml", "json", "urdf", "mjcf", "sdf", "dot"].iter().all(|w| words.contains(w)));
 /// ```
 pub fn writable_formats() -> impl Iterator<Item = &'static Format> {
-    FORMATS.iter()
+    FORMATS.iter().filter(|f| f.write.is_some())
 }
 
 /// Writes a mechanism in the format of the given name, one of those of [`writable_formats`].
@@ -166,14 +146,11 @@ pub fn write(m: &Mechanism, word: &str) -> Result<String, ExportError> {
 /// ```
 pub fn export(m: &Mechanism, word: &str) -> Result<FormattedFile, ExportError> {
     let format = writable_formats().find(|f| f.word == word);
-    let format = format.ok_or_else(|| ExportError::Unknown {
+    let write = format.and_then(|f| f.write);
+    write.ok_or_else(|| ExportError::Unknown {
         word: word.to_owned(),
         known: writable_formats().map(|f| f.word).join(", "),
-    })?;
-    let own = ExportError::Own {
-        format: format.name,
-    };
-    format.write.ok_or(own)?(m)
+    })?(m)
 }
 
 /// Returns true if a file of this name is a robot description, by its ending.
@@ -284,6 +261,15 @@ pub fn refuse_foreign(name: &str, bytes: &[u8]) -> Result<(), ImportError> {
         let message = format!("this is a {format} file, which is not read; {remedy}");
         Err(syntax_problem(message).in_file(name, "", None))
     })
+}
+
+/// Returns the file of a mechanism, unless its tables are not those of the file that it was read from.
+fn own_file(m: &Mechanism) -> Result<MechanismFile, ExportError> {
+    if write::has_own_tables(m) {
+        Ok(mechanism_file(m))
+    } else {
+        Err(ExportError::Changed)
+    }
 }
 
 /// Writes links as nodes (the frame with a double outline, outputs filled) and joints as edges with their class.

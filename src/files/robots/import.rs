@@ -2,13 +2,13 @@
 //!
 //! A description is read into links and joints with a place on either side; loops come from the file or from a separate file
 //! ([`Options::loops`]). The joints are composed into one pose. Loops that are open there are closed by changing joint values as little as
-//! possible. Rigidly joined links become one. The result is a mechanism and the entries of its file, with a [`Report`] of what was mapped,
-//! approximated and dropped.
+//! possible. Rigidly joined links become one. The result is a mechanism and the entries of its file, with a [`Report`] of what was
+//! moved, approximated and dropped.
 
 use crate::file::read::build_mechanism;
 use crate::file::schema::{MechanismFile, ToleranceEntry};
 use crate::file::text::mechanism_from_str;
-use crate::file::write::{self, Comment};
+use crate::file::write;
 use crate::geom::extent::box_diagonal;
 use crate::robots::cad::archive::Archive;
 use crate::robots::cad::asmt;
@@ -31,15 +31,14 @@ pub struct Imported {
     pub file: MechanismFile,
     /// The format read.
     pub format: &'static Format,
-    /// Mapped, approximated and dropped elements.
+    /// Moved, approximated and dropped elements.
     pub report: Report,
-    comments: Vec<Comment>,
     /// The places of the mechanism's parts in the description.
     pub origin: Origin,
 }
 
 impl Imported {
-    /// Returns the mechanism file as TOML, with comments on merged and approximated elements.
+    /// Returns the mechanism file as TOML.
     ///
     /// # Errors
     /// No error is known.
@@ -54,7 +53,7 @@ impl Imported {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn toml(&self) -> Result<String, ExportError> {
-        Ok(write::toml(&self.file, &self.comments)?)
+        Ok(write::toml(&self.file)?)
     }
 }
 
@@ -131,19 +130,17 @@ pub fn import(
     let tree = pose_robot(&mut robot, options).map_err(fail)?;
     let source = std::path::Path::new(name).file_name().unwrap_or_default();
     let source = format!("{} ({})", source.to_string_lossy(), format.name);
-    let (mut file, comments, content) =
-        make_entries(&mut robot, &tree, &source, options).map_err(fail)?;
+    let (mut file, content) = make_entries(&mut robot, &tree, &source, options).map_err(fail)?;
     file.assumed.clone_from(&robot.report.assumed);
     file.tolerance = find_tolerance(document.element(root), &robot, &content);
     let closes = content.joints.iter().map(|&j| robot.joints[j].closes);
     let closes: Vec<bool> = closes.collect();
-    let mechanism = with_offers(&mut file, &comments, &closes)?;
+    let mechanism = with_offers(&mut file, &closes)?;
     Ok(Imported {
         mechanism,
         file,
         format,
         report: std::mem::take(&mut robot.report),
-        comments,
         origin: Origin {
             document,
             archive,
@@ -205,10 +202,10 @@ fn check_expanded(document: &Document) -> Result<(), ImportError> {
 }
 
 /// Returns the mechanism of a file. Joints that close loops get options for searches, if these can be written.
-fn with_offers(file: &mut MechanismFile, comments: &[Comment], closes: &[bool]) -> Read<Mechanism> {
+fn with_offers(file: &mut MechanismFile, closes: &[bool]) -> Read<Mechanism> {
     // Problems are shown in the text that would be written.
     let mechanism = build_mechanism(file).or_else(|_| {
-        let text = write::toml(file, comments).unwrap_or_default();
+        let text = write::toml(file).unwrap_or_default();
         mechanism_from_str("the imported mechanism", &text)
     })?;
     let mut offered = file.clone();

@@ -76,8 +76,6 @@ pub(super) struct Expanded<'r> {
     count: usize,
     /// For each file, true if it is older than SDF 1.5.
     pub(super) old: Vec<bool>,
-    /// Includes that are omitted, because nothing in them moves.
-    pub(super) scenery: Vec<String>,
 }
 
 /// Puts models in place of all `<include>` elements of SDF below the root.
@@ -87,7 +85,6 @@ pub(super) fn expand_models<'r>(input: &mut Input<'r>) -> Read<Expanded<'r>> {
         read: input.read,
         count: 0,
         old: vec![is_old(document.element(input.root))],
-        scenery: Vec::new(),
     };
     // With the names of the files that are open.
     let main = document.sources[0].name.clone();
@@ -104,10 +101,7 @@ pub(super) fn expand_models<'r>(input: &mut Input<'r>) -> Read<Expanded<'r>> {
             }
             out.count += 1;
             let (model, uri) = out.read_model(document, c, &open)?;
-            let Some(model) = model else {
-                out.scenery.push(uri);
-                continue;
-            };
+            let Some(model) = model else { continue };
             let mut names = open.clone();
             names.push(uri);
             all.push(model);

@@ -7,7 +7,6 @@ pub(in crate::robots) mod series_of_single_joints;
 
 use crate::file::read::value::LIMITS;
 use crate::file::schema::MechanismFile;
-use crate::file::write::Comment;
 use crate::format::count_noun;
 use crate::robots::description::coupling;
 use crate::robots::description::kinematics::{Tree, link_places, spanning_tree};
@@ -73,7 +72,6 @@ fn root_link(robot: &mut Robot, options: &Options) -> Found<usize> {
         let id = format!("floating-{}", robot.links[r]);
         let part = Part::new(&id, [world, r], sides, free_joint());
         robot.joints.push(part);
-        robot.report.count_mapped("floating base");
     }
     if apart && !options.floating {
         let what = if parts == 0 {
@@ -81,7 +79,7 @@ fn root_link(robot: &mut Robot, options: &Options) -> Found<usize> {
         } else {
             "parts without joints float freely in the world"
         };
-        robot.report.add_moved(what.to_owned());
+        robot.report.moved.push(what.to_owned());
     }
     Ok(world)
 }
@@ -119,16 +117,13 @@ fn close_loops(robot: &mut Robot, tree: &Tree, options: &Options) -> Found<()> {
     let first = worst_gap(&loop_gaps(robot, tree), size);
     let loops = count_noun(tree.loops.len(), "loop");
     if first <= CLOSED * size {
-        robot.report.pose.push(format!(
-            "{loops} closed in the pose of the file, to {first:.1e} {unit}"
-        ));
         return Ok(());
     }
     if options.open {
         let widest = widest_gap(robot, tree, size);
         let note =
             format!("loops are open, the widest by {widest}; the figures are those of that pose");
-        robot.report.add_moved(note);
+        robot.report.moved.push(note);
         return Ok(());
     }
     let before = joint_values(robot);
@@ -150,7 +145,7 @@ fn close_loops(robot: &mut Robot, tree: &Tree, options: &Options) -> Found<()> {
         0 => String::new(),
         n => format!("; {n} outside their limits"),
     };
-    robot.report.add_moved(format!(
+    robot.report.moved.push(format!(
         "{loops} open by {first:.1e} {unit} in the pose of the file, closed to {left:.1e} {unit} by moving joints{moved}{limits}"
     ));
     Ok(())
@@ -201,13 +196,13 @@ fn in_loops(robot: &Robot, tree: &Tree) -> BTreeSet<usize> {
     out
 }
 
-/// Returns the entries of the mechanism file of a robot and their comments. `source` is the name of the file read, and of its format.
+/// Returns the entries of the mechanism file of a robot. `source` is the name of the file read, and of its format.
 pub(crate) fn make_entries(
     robot: &mut Robot,
     tree: &Tree,
     source: &str,
     options: &Options,
-) -> Found<(MechanismFile, Vec<Comment>, Content)> {
+) -> Found<(MechanismFile, Content)> {
     let (bodies, joints) = rigid_bodies(robot, tree)?;
     let frame = bodies[tree.roots[0]];
     let content = Content {
@@ -225,11 +220,7 @@ pub(crate) fn make_entries(
     let size = (used.len(), content.joints.len());
     within_limits(size.0, size.1)?;
     (robot.report.outputs, robot.report.size) = (outputs, size);
-    for j in robot.joints.iter().filter(|j| j.limits.is_some()) {
-        robot.report.count_dropped("limit of a joint", Some(&j.id));
-    }
-    let (file, comments) = entries::make_file(robot, source, &content);
-    Ok((file, comments, content))
+    Ok((entries::make_file(robot, source, &content), content))
 }
 
 /// Merges rigidly joined links to bodies and returns them with the joints between them. Joints within a body are reported and

@@ -16,9 +16,6 @@ const SECTIONS: &str = "asset contact custom extension keyframe option sensor si
 
 const TYPES: &str = "hinge, slide, ball, free";
 
-/// Attributes of a joint's resistance to motion, which do not affect the kinematics.
-const RESISTANCE: &str = "damping stiffness springdamper armature frictionloss";
-
 /// An element still to be read: a body, frame or joint, its link, its place there, and the class of its children.
 #[derive(Clone, Copy)]
 struct Waiting<'a> {
@@ -75,7 +72,7 @@ pub(crate) fn read_mujoco(mut input: Input<'_>) -> Read<Robot> {
                 let what = "deformable bodies are not links; omitted";
                 robot.report.add_approximation(&section.label(), what);
             }
-            other if section.is_one_of(SECTIONS) => robot.report.count_dropped(other, None),
+            _ if section.is_one_of(SECTIONS) => {}
             _ => leave_out(section, None, &mut robot),
         }
     }
@@ -84,20 +81,17 @@ pub(crate) fn read_mujoco(mut input: Input<'_>) -> Read<Robot> {
 
 /// Records the joint that an actuator drives, or those that it pulls by a tendon.
 fn read_actuator(a: Element<'_>, root: Element<'_>, robot: &mut Robot) {
-    let name = a.attribute("name");
     // The frame in which it acts does not matter.
     let joint = a.attribute("joint").or(a.attribute("jointinparent"));
     let mut joints = robot.joints.iter_mut();
     if let Some(j) = joints.find(|j| Some(j.id.as_str()) == joint) {
         j.drive = true;
-        robot.report.count_dropped("data of an actuator", name);
         return;
     }
     let pulled = of_tendon(root, a);
     for j in &mut robot.joints {
         j.pulled |= pulled.contains(&j.id.as_str());
     }
-    robot.report.count_dropped("actuator", name);
 }
 
 /// Returns the names of the joints that an actuator moves by a fixed tendon.
@@ -141,20 +135,16 @@ fn read_bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Ro
                         _ => robot.report.add_approximation(&e.label(), what),
                     }
                 }
-                "replicate" if e.children().all(|c| c.is_one_of("geom site light camera")) => {
-                    robot.report.count_dropped("replicate", None);
-                }
+                "replicate" if e.children().all(|c| c.is_one_of("geom site light camera")) => {}
                 "composite" | "replicate" => {
                     let why = "it makes bodies when the model is compiled";
                     let remedy = "save the compiled model from MuJoCo as XML and import that file";
                     return Err(e.unsupported_error(why, remedy));
                 }
-                other => {
-                    if other == "geom" {
-                        robot.shown.insert(w.link);
-                    }
-                    robot.report.count_dropped(other, e.attribute("name"));
+                "geom" => {
+                    robot.shown.insert(w.link);
                 }
+                _ => {}
             }
         }
         stack.extend(here.into_iter().rev());
@@ -166,7 +156,6 @@ fn read_site(w: Waiting<'_>, context: &mut Context<'_>, robot: &mut Robot) -> Re
     let e = w.element;
     let place = w.place.then(&context.compiler.read_place(e)?);
     let Some(name) = e.attribute("name") else {
-        robot.report.count_dropped("site", None);
         return Ok(());
     };
     let here = (w.link, place);
@@ -175,7 +164,6 @@ fn read_site(w: Waiting<'_>, context: &mut Context<'_>, robot: &mut Robot) -> Re
     }
     robot.frames.entry(name.to_owned()).or_insert(here);
     robot.shown.insert(w.link);
-    robot.report.count_mapped("site");
     Ok(())
 }
 
@@ -196,7 +184,6 @@ fn read_body<'a>(at: Waiting<'a>, context: &Context<'a>, robot: &mut Robot) -> R
     let mut own = at;
     own.place = RigidMotion::IDENTITY;
     own_joints(own, context, &mut joints)?;
-    robot.report.count_mapped("body");
     if joints.is_empty() {
         let link = robot.add_link(&name, world);
         // A hand or a recording moves it in six freedoms: it is a drive, and not part of the frame.
@@ -205,7 +192,6 @@ fn read_body<'a>(at: Waiting<'a>, context: &Context<'a>, robot: &mut Robot) -> R
         if e.attribute("mocap") == Some("true") {
             part = Part::new(&name, [parent, link], sides, free_joint()).said_by(e);
             part.drive = true;
-            robot.report.count_mapped("mocap body, as a drive");
         }
         robot.joints.push(part);
         return Ok(link);
@@ -218,9 +204,6 @@ fn read_body<'a>(at: Waiting<'a>, context: &Context<'a>, robot: &mut Robot) -> R
         let part = read_joint(j, &name, [from, link], at, context, robot)?;
         robot.joints.push(part);
         (from, at) = (link, RigidMotion::IDENTITY);
-    }
-    if joints.len() > 1 {
-        robot.report.count_mapped("body on joints in series");
     }
     Ok(from)
 }
@@ -287,12 +270,6 @@ fn read_joint<'a>(
             part.limits = (low < high).then_some((low * unit - part.zero, high * unit - part.zero));
         }
     }
-    for key in RESISTANCE.split(' ') {
-        if look.attribute(key).is_some() {
-            robot.report.count_dropped(key, Some(&id));
-        }
-    }
-    robot.report.count_mapped(word);
     Ok(part)
 }
 

@@ -18,10 +18,6 @@ pub(crate) fn read_sdf(mut input: Input<'_>) -> Read<Robot> {
     let included = expand_models(&mut input)?;
     let root = input.document.element(input.root);
     let mut robot = Robot::new("robot");
-    let what = "include of a light or floor";
-    for uri in &included.scenery {
-        robot.report.count_dropped(what, Some(uri));
-    }
     robot.world = Some(robot.add_link("world", RigidMotion::IDENTITY));
     robot.floats = true;
     let mut scene = SdfScene {
@@ -181,8 +177,7 @@ fn read_model<'a>(
                 scene.constraints.push((e, scope.to_owned()));
             }
             "plugin" => scene.plugins.push((e, scope.to_owned())),
-            "model" | "pose" | "static" => {}
-            "gripper" => robot.report.count_dropped("gripper", e.attribute("name")),
+            "model" | "pose" | "static" | "gripper" => {}
             _ => scene.unknown.push(e),
         }
     }
@@ -234,7 +229,6 @@ fn read_link<'a>(
             let why = "a link named world is not in its place";
             return Err(e.unsupported_error(why, "remove its pose, or give it another name"));
         }
-        robot.report.count_mapped("link that is the world");
         return Ok(());
     }
     let link = robot.add_link(&name, RigidMotion::IDENTITY);
@@ -242,11 +236,8 @@ fn read_link<'a>(
     let mut placed = Placed::new(e, to, raw, name.clone());
     placed.link = Some(link);
     insert(scene, name, placed)?;
-    for c in e.children().filter(|c| c.name() != "pose") {
-        if ["visual", "collision"].contains(&c.name()) {
-            robot.shown.insert(link);
-        }
-        robot.report.count_dropped(c.name(), None);
+    if e.children().any(|c| c.is_one_of("visual collision")) {
+        robot.shown.insert(link);
     }
     if is_static {
         scene.fixed.push(link);

@@ -29,7 +29,6 @@ pub(crate) fn read_urdf(input: Input<'_>) -> Read<Robot> {
     };
     if robot.frame("world").is_none() && root.children_named("joint").any(on_world) {
         robot.add_link("world", RigidMotion::IDENTITY);
-        robot.report.count_mapped("world");
     }
     let mut unknown = Vec::new();
     for e in root.children() {
@@ -73,11 +72,8 @@ fn read_link(e: Element<'_>, robot: &mut Robot) -> Read<()> {
         return Err(e.duplicate_error());
     }
     let l = robot.add_link(name, RigidMotion::IDENTITY);
-    for c in e.children() {
-        if ["visual", "collision"].contains(&c.name()) {
-            robot.shown.insert(l);
-        }
-        robot.report.count_dropped(c.name(), None);
+    if e.children().any(|c| c.is_one_of("visual collision")) {
+        robot.shown.insert(l);
     }
     Ok(())
 }
@@ -86,13 +82,9 @@ fn read_link(e: Element<'_>, robot: &mut Robot) -> Read<()> {
 fn read_transmission(e: Element<'_>, robot: &mut Robot) {
     let driven = e.children_named("joint");
     for j in driven.filter_map(|j| j.attribute("name")) {
-        match robot.joints.iter_mut().find(|p| p.id == j) {
-            Some(p) => {
-                p.drive = true;
-                let what = "data of a transmission";
-                robot.report.count_dropped(what, Some(j));
-            }
-            None => robot.report.count_dropped("transmission", Some(j)),
+        let mut joints = robot.joints.iter_mut();
+        if let Some(p) = joints.find(|p| p.id == j) {
+            p.drive = true;
         }
     }
     // If there are more joints than actuators, they are coupled, unless they follow one another.
@@ -123,7 +115,6 @@ fn read_controlled(e: Element<'_>, robot: &mut Robot) -> Read<()> {
             add_coupling(j, [leader.text(), follower], ratio, robot);
         }
     }
-    robot.report.count_dropped(e.name(), e.attribute("name"));
     Ok(())
 }
 
@@ -156,7 +147,7 @@ fn read_constraint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     let unnamed = || format!("constraint-{a}-{b}");
     let id = e.attribute("name").map_or_else(unnamed, str::to_owned);
     let ends = [(links[0], sides[0]), (links[1], sides[1])];
-    robot.close_loop(e, &id, ends, joint_type, "constraint")?;
+    robot.close_loop(e, &id, ends, joint_type)?;
     Ok(())
 }
 
@@ -233,12 +224,10 @@ fn read_joint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     if let Some(l) = e.first_child("limit").filter(|_| word != "continuous") {
         part.limits = read_limits(l)?;
     }
-    robot.report.count_mapped(word);
     if let Some(m) = e.first_child("mimic") {
         let leader = m.required_attribute("joint")?;
         let ratio = m.read_numbers::<1>("multiplier")?.map_or(1.0, |[x]| x);
         m.read_numbers::<1>("offset")?;
-        part.comment = Some(format!("mimics {leader} times {ratio}"));
         robot.couplings.push(Ratio {
             said_by: m.id,
             ..Ratio::new([leader, name], ratio, e)
@@ -278,7 +267,7 @@ fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     let joint_type = joint_of_word(word, CLOSING);
     let joint_type = joint_type.ok_or_else(|| e.unknown_word("type", word, CLOSING))?;
     let axis = read_axis(e)?;
-    let part = robot.close_loop(e, name, ends, joint_type, "loop_joint")?;
+    let part = robot.close_loop(e, name, ends, joint_type)?;
     part.set_axis(axis);
     Ok(())
 }

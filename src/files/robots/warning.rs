@@ -36,39 +36,28 @@ pub type Reader<'a> = &'a dyn Fn(&str) -> std::io::Result<Vec<u8>>;
 
 /// Names shown of each kind of dropped element.
 const SHOWN: usize = 4;
-/// Maximum number of kinds in a sentence.
-const KINDS: usize = 12;
 
-/// An element that the mechanism file cannot represent exactly.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Note {
-    /// The element.
-    pub element: String,
-    /// Its treatment.
-    pub what: String,
-}
+/// What no mechanism has of its description.
+pub const KINEMATICS: &str =
+    "Only the kinematics are read: no masses, shapes, limits or actuators.";
 
 /// The report on the import of a file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Report {
-    /// Elements mapped, by kind.
-    pub mapped: BTreeMap<String, usize>,
-    /// Elements mapped approximately.
-    pub approximated: Vec<Note>,
+    /// Elements mapped approximately, each with its treatment.
+    pub approximated: Vec<String>,
     /// Approximations that are guesses or omissions. They may constrain or couple something, so figures are those
     /// of the file as read.
     pub assumed: Vec<String>,
-    /// Elements without influence on the kinematics, by kind: their number, and some names.
-    pub dropped: BTreeMap<String, (usize, Vec<String>)>,
+    /// Parts, joints and documents that are switched off, loose or not read: their names by kind.
+    pub dropped: BTreeMap<String, Vec<String>>,
     /// Rows of omitted constraints between joint values.
     pub coupling_rows: usize,
     /// Rows of omitted constraints of joints.
     pub constraint_rows: usize,
     /// Freedoms as a CAD program counts them, for an assembly: 6 a moving part, less all constraints of joints, which is W minus σ.
     pub cad_freedoms: Option<i64>,
-    /// Search for the pose, and remaining errors of the loops.
-    pub pose: Vec<String>,
-    /// The subset that changes the mechanism from the drawn one: joints moved, loops left open, floating bases.
+    /// Differences from the drawn pose: joints moved, loops left open, floating bases.
     pub moved: Vec<String>,
     /// Links and joints of the mechanism.
     pub size: (usize, usize),
@@ -77,21 +66,9 @@ pub struct Report {
 }
 
 impl Report {
-    pub(crate) fn count_mapped(&mut self, kind: &str) {
-        *self.mapped.entry(kind.to_owned()).or_default() += 1;
-    }
-
-    /// Records a difference of the pose from the drawn one.
-    pub(crate) fn add_moved(&mut self, what: String) {
-        self.pose.push(what.clone());
-        self.moved.push(what);
-    }
-
     pub(crate) fn add_approximation(&mut self, element: &str, what: impl Into<String>) {
-        self.approximated.push(Note {
-            element: element.to_owned(),
-            what: what.into(),
-        });
+        self.approximated
+            .push(format!("{element}: {}", what.into()));
     }
 
     /// Records an assumption that the file does not state.
@@ -119,28 +96,9 @@ impl Report {
         self.coupling_rows + self.constraint_rows
     }
 
-    pub(crate) fn count_dropped(&mut self, kind: &str, name: Option<&str>) {
-        let (count, names) = self.dropped.entry(kind.to_owned()).or_default();
-        *count += 1;
-        if let Some(n) = name
-            && names.len() < SHOWN
-        {
-            names.push(n.to_owned());
-        }
-    }
-
-    /// Describes what the mechanism lacks of the description: masses, shapes, limits and the like.
-    #[must_use]
-    pub fn left_behind(&self) -> Option<String> {
-        let kinds = self.dropped.iter();
-        let kinds = kinds.map(|(kind, (n, _))| format!("{kind} ({n})"));
-        let mut kinds: Vec<String> = kinds.collect();
-        let more = kinds.len().saturating_sub(KINDS);
-        kinds.truncate(KINDS);
-        if more > 0 {
-            kinds.push(format!("{more} more kinds"));
-        }
-        (!kinds.is_empty()).then(|| format!("Omitted: {}.", kinds.join(", ")))
+    pub(crate) fn drop_element(&mut self, kind: &str, name: &str) {
+        let names = self.dropped.entry(kind.to_owned()).or_default();
+        names.push(name.to_owned());
     }
 
     /// Returns the report as text.
@@ -149,21 +107,13 @@ impl Report {
         let (links, joints) = self.size;
         let (links, joints) = (count_noun(links, "link"), count_noun(joints, "joint"));
         let mut out = format!("{file}: {links}, {joints}\n");
-        let mapped = self.mapped.iter().map(|(k, n)| format!("{n} {k}"));
-        if !self.mapped.is_empty() {
-            write_line(&mut out, "mapped", &mapped.format(", ").to_string());
-        }
-        for p in &self.pose {
-            write_line(&mut out, "pose", p);
+        for moved in &self.moved {
+            write_line(&mut out, "pose", moved);
         }
         out.push_str(&self.list_doubts());
-        for (kind, (count, names)) in &self.dropped {
-            let more = if *count > names.len() { ", ..." } else { "" };
-            let names = match names[..] {
-                [] => String::new(),
-                _ => format!(" ({}{more})", names.join(", ")),
-            };
-            write_line(&mut out, "dropped", &format!("{count} {kind}{names}"));
+        for (kind, names) in &self.dropped {
+            let what = format!("{} {kind} ({})", names.len(), first_of(names, SHOWN));
+            write_line(&mut out, "dropped", &what);
         }
         let (names, asked) = &self.outputs;
         let hint = if *asked {
@@ -194,9 +144,8 @@ impl Report {
             let what = format!("{rows} of joints: W is up to {n} too high, σ may be too low");
             write_line(&mut out, "omitted", &what);
         }
-        for n in &self.approximated {
-            let what = format!("{}: {}", n.element, n.what);
-            write_line(&mut out, "approximated", &what);
+        for what in &self.approximated {
+            write_line(&mut out, "approximated", what);
         }
         out
     }
@@ -287,14 +236,6 @@ pub enum ExportError {
         /// The remedy.
         remedy: &'static str,
     },
-    /// The format is written only of files that were read in it.
-    #[error(
-        "{format} cannot be written from a mechanism only; give a document in this format, whose joints get other types"
-    )]
-    Own {
-        /// The format.
-        format: &'static str,
-    },
     /// No format of this name can be written.
     #[error("unknown format \"{word}\"; known: {known}")]
     Unknown {
@@ -303,6 +244,11 @@ pub enum ExportError {
         /// The known words.
         known: String,
     },
+    /// The loads or the ranking are not those of the file that the mechanism was read from.
+    #[error(
+        "the loads or the ranking were changed in code, and only those of a file can be written; change them in the file and read it again"
+    )]
+    Changed,
     /// The TOML writer failed.
     #[error("the mechanism cannot be written as TOML: {0}; report this with the file")]
     Toml(#[from] toml::ser::Error),

@@ -1,6 +1,7 @@
 //! Joint reactions of a gripping mechanism: the part is cut free, and the contact forces of its worst case act on the
 //! jaws.
 
+use crate::closure::drive::driven_freedoms;
 use crate::geom::exact::ExactError;
 use crate::grip::clamping::{DiameterRow, HoldVerdict};
 use crate::grip::drive_effort;
@@ -9,8 +10,6 @@ use crate::model::grip::Transmission;
 use crate::model::mechanism::Mechanism;
 use crate::motion::pose::Pose;
 use crate::statics::cycle::{PlanarStaticsError, statics_at};
-use crate::statics::reactions::drives::driven_freedoms;
-use crate::statics::reactions::geometry::Geometry;
 use crate::statics::reactions::{Cycle, Reactions, Unsolved};
 use crate::statics::solve::{SolvedReactions, is_for_space};
 use crate::statics::transmission::drive_rates;
@@ -85,8 +84,7 @@ pub fn clamped_reactions(
     let found = match planar {
         Some(found) => SolvedReactions::Planar(Box::new(found)),
         None => {
-            let home = Pose::of_file(&m, g.state)?;
-            let drives = driven_freedoms(&m, &Geometry::new(&m, g.state, &home)?)?;
+            let drives = driven_freedoms(&m, g.state);
             let found = Reactions::solve_at(&m, g.state, &m.loads, &fit.pose, fit.drive, &drives)?;
             SolvedReactions::Spatial(Cycle {
                 drives,

@@ -19,6 +19,7 @@
 //! Axes: the grip's x, y, z are derived from the points of contacts and lever joints. These must agree with the grip's
 //! figures at the nominal diameter.
 
+use crate::closure::drive::driven_freedoms;
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
 use crate::geom::vector::{self, across, add, add_scaled, cross, dot, length, sub};
@@ -326,8 +327,9 @@ impl Gripping {
             }
             held.push(column);
         }
-        let drive = (0..pose.columns.len())
-            .find(|&c| m.joints[pose.columns[c].joint].may_drive(pose.columns[c].freedom));
+        let first = driven_freedoms(m, self.state).first().copied();
+        let mut columns = pose.columns.iter();
+        let drive = columns.position(|c| Some((c.joint, c.freedom)) == first);
         let position = drive.map(|c| {
             let scale = if column_slides(&pose, c) {
                 pose.length

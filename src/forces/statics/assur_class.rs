@@ -1,9 +1,7 @@
 //! Class, order and kind of an Assur group.
 
+use crate::closure::contour::shortest_cycle_basis;
 use crate::statics::planar::{BodyId, PairId, PairKind, PlanarMechanism};
-use petgraph::algo::dijkstra;
-use petgraph::graph::{EdgeReference, NodeIndex, UnGraph};
-use petgraph::visit::EdgeRef;
 use std::fmt;
 
 /// The structural kind of a group.
@@ -100,10 +98,11 @@ pub(crate) fn classify_group(
             degree[b] += 1;
         }
         if let [Some(a), Some(b)] = ends {
-            edges.push((a, b));
+            edges.push([a, b]);
         }
     }
-    let changeable = longest_contour(blocks.len(), &edges);
+    let contours = shortest_cycle_basis(blocks.len(), &edges);
+    let changeable = contours.iter().map(Vec::len).max().unwrap_or(0);
     let rigid = degree.iter().copied().max().unwrap_or(0);
     let mut composition: Vec<usize> = Vec::new();
     for &d in &degree {
@@ -126,7 +125,7 @@ fn group_kind(
     inner: &[PairId],
     outer: &[PairId],
     degree: &[usize],
-    edges: &[(usize, usize)],
+    edges: &[[usize; 2]],
 ) -> Kind {
     let with = |d: usize| degree.iter().filter(|&&x| x == d).count();
     match (blocks.len(), inner.len(), outer.len()) {
@@ -149,8 +148,8 @@ fn group_kind(
         (4, 3, 3) if with(3) == 1 && with(2) == 3 => Kind::Triad,
         (4, 4, 2) if with(3) == 2 && with(2) == 2 => {
             // Each inner pair joins a body of three to a body of two, and no two bodies are joined twice.
-            let mixed = edges.iter().all(|&(a, b)| degree[a] != degree[b]);
-            let key = |&(a, b): &(usize, usize)| (a.min(b), a.max(b));
+            let mixed = edges.iter().all(|&[a, b]| degree[a] != degree[b]);
+            let key = |&[a, b]: &[usize; 2]| (a.min(b), a.max(b));
             let mut sorted: Vec<_> = edges.iter().map(key).collect();
             sorted.sort_unstable();
             sorted.dedup();
@@ -162,95 +161,4 @@ fn group_kind(
         }
         _ => Kind::Other,
     }
-}
-
-/// Returns the length of the longest contour of a shortest basis, or 0 if there is none. It is greedy: each edge is
-/// closed by a shortest path.
-fn longest_contour(n: usize, edges: &[(usize, usize)]) -> usize {
-    let mut graph: UnGraph<(), usize> = UnGraph::default();
-    (0..n).for_each(|_| {
-        graph.add_node(());
-    });
-    for (i, &(a, b)) in edges.iter().enumerate() {
-        graph.add_edge(NodeIndex::new(a), NodeIndex::new(b), i);
-    }
-    let mut candidates = basis_candidates(&graph);
-    candidates.sort_unstable();
-    candidates.dedup();
-    let mut basis: Vec<Vec<usize>> = Vec::new();
-    let mut longest = 0;
-    for (length, mut row) in candidates {
-        for b in &basis {
-            if row.binary_search(&b[0]).is_ok() {
-                row = symmetric_difference(&row, b);
-            }
-        }
-        if !row.is_empty() {
-            longest = longest.max(length);
-            basis.push(row);
-        }
-    }
-    longest
-}
-
-/// Returns Horton's candidates for a shortest basis, each with its length: for every body and pair, the two shortest
-/// paths to the pair's ends, and the pair.
-fn basis_candidates(graph: &UnGraph<(), usize>) -> Vec<(usize, Vec<usize>)> {
-    let mut out: Vec<(usize, Vec<usize>)> = Vec::new();
-    for v in graph.node_indices() {
-        let far = dijkstra(graph, v, None, |_| 1usize);
-        for e in graph.edge_references() {
-            if !far.contains_key(&e.source()) {
-                continue;
-            }
-            let path = |x| shortest_path(graph, |n| far.get(&n).copied(), x);
-            let (a, b) = (path(e.source()), path(e.target()));
-            if a.iter().any(|x| b.contains(x)) || a.contains(e.weight()) || b.contains(e.weight()) {
-                continue;
-            }
-            let mut all: Vec<usize> = a.into_iter().chain(b).chain([*e.weight()]).collect();
-            all.sort_unstable();
-            out.push((all.len(), all));
-        }
-    }
-    out
-}
-
-/// Returns the edges of a shortest path from `x` back to the body from which distances are measured.
-fn shortest_path(
-    graph: &UnGraph<(), usize>,
-    far: impl Fn(NodeIndex) -> Option<usize>,
-    mut x: NodeIndex,
-) -> Vec<usize> {
-    let mut out = Vec::new();
-    while far(x) != Some(0) {
-        let other = |e: &EdgeReference<'_, usize>| {
-            if e.source() == x {
-                e.target()
-            } else {
-                e.source()
-            }
-        };
-        let nearer = |e: &EdgeReference<'_, usize>| {
-            let d = far(other(e));
-            d.is_some_and(|d| Some(d + 1) == far(x))
-        };
-        let Some(e) = graph.edges(x).find(nearer) else {
-            break;
-        };
-        out.push(*e.weight());
-        x = other(&e);
-    }
-    out
-}
-
-fn symmetric_difference(a: &[usize], b: &[usize]) -> Vec<usize> {
-    let only = |x: &[usize], y: &[usize]| {
-        let keep = x.iter().filter(|e| y.binary_search(e).is_err());
-        keep.copied().collect::<Vec<_>>()
-    };
-    let mut out = only(a, b);
-    out.extend(only(b, a));
-    out.sort_unstable();
-    out
 }

@@ -1,5 +1,6 @@
 //! A planar mechanism's statics over its cycle: structure, motion, loads, and reactions by every method.
 
+use crate::closure::drive::{Driven, driven_freedoms};
 use crate::geom::vector::dot;
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -16,7 +17,6 @@ use crate::statics::planar::{BodyId, PairId, PairKind, PlanarError, PlanarMechan
 use crate::statics::pose::{Linkage, Pose};
 use crate::statics::reactions::contact::Contacts;
 use crate::statics::reactions::cycle::follow_to;
-use crate::statics::reactions::drives::{Driven, driven_freedoms};
 use crate::statics::reactions::geometry::Geometry;
 use crate::statics::reactions::loads::Borne;
 use crate::statics::reactions::unsolved::Unsolved;
@@ -240,9 +240,7 @@ pub(crate) fn statics_at(
     let decomposition = decompose_groups(&planar, &drives)?;
     let linkage = Linkage::new(planar);
     let m = linkage.mechanism.as_driven(mechanism);
-    let home = PoseOfLinks::of_file(&m, state).map_err(PlanarError::from)?;
-    let home = Geometry::new(&m, state, &home).map_err(PlanarError::from)?;
-    let held = driven_freedoms(&m, &home)?;
+    let held = driven_freedoms(&m, state);
     let followed = follow_to(&m, state, &held, positions)?;
     let mut poses = followed.poses;
     if positions.first() > positions.last() {

@@ -18,7 +18,6 @@
 pub mod contact;
 pub(crate) mod couplings;
 pub mod cycle;
-pub mod drives;
 mod equations;
 pub mod geometry;
 pub(crate) mod inertia;

@@ -136,23 +136,45 @@ pub fn contour_basis(mechanism: &Mechanism, state: StateId) -> Vec<Contour> {
             .iter()
             .filter(|c| c.iter().all(|j| present.contains(j)));
         for walk in named.filter_map(|c| closed_walk(mechanism, c)) {
-            let passed = walk.joints.iter().map(|&(j, _)| j).collect_vec();
-            if basis.insert_cycle(&passed, joints) {
+            let passed = walk.joints.iter().map(|(j, _)| j.index());
+            if basis.insert_cycle(passed, joints) {
                 contours.push(walk);
             }
         }
         let rank = present.len() + count_components(mechanism, &present)
             - count_links(mechanism, &present);
-        for cycle in shortest_cycles(mechanism, &present) {
+        let ends = present.iter().map(|&j| mechanism.joints[j].links);
+        let ends: Vec<[usize; 2]> = ends.map(|links| links.map(LinkId::index)).collect();
+        for cycle in shortest_cycles(mechanism.links.len(), &ends) {
             if contours.len() == rank {
                 break;
             }
-            if basis.insert_cycle(&cycle, joints) {
+            let cycle: Vec<JointId> = cycle.into_iter().map(|e| present[e]).collect();
+            if basis.insert_cycle(cycle.iter().map(|j| j.index()), joints) {
                 contours.extend(closed_walk(mechanism, &cycle));
             }
         }
     }
     contours
+}
+
+/// Returns a shortest basis of the cycles of a graph, each by the indices of its edges.
+///
+/// # Complexity
+/// As [`contour_basis`], with every candidate examined.
+///
+/// # Examples
+/// ```
+/// use ozols::closure::contour::shortest_cycle_basis;
+/// // A square with a diagonal: two triangles.
+/// let basis = shortest_cycle_basis(4, &[[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]]);
+/// assert_eq!(basis, [[0, 1, 4], [2, 3, 4]]);
+/// ```
+#[must_use]
+pub fn shortest_cycle_basis(nodes: usize, edges: &[[usize; 2]]) -> Vec<Vec<usize>> {
+    let mut basis = Basis::default();
+    let mut adds = |c: &Vec<usize>| basis.insert_cycle(c.iter().copied(), edges.len());
+    shortest_cycles(nodes, edges).filter(|c| adds(c)).collect()
 }
 
 fn count_links(mechanism: &Mechanism, joints: &[JointId]) -> usize {
@@ -175,61 +197,55 @@ fn count_components(mechanism: &Mechanism, joints: &[JointId]) -> usize {
     count_links(mechanism, joints) - merged
 }
 
-/// Returns the joints of each biconnected block of the graph of links. Joints that are in no cycle are omitted.
-fn biconnected_blocks(mechanism: &Mechanism, present: &[JointId]) -> Vec<Vec<JointId>> {
-    let links = mechanism.links.len();
-    let ends = |e: usize| mechanism.joints[present[e]].links.map(LinkId::index);
-    let (_, steps) = spanning_forest(links, (0..present.len()).map(ends), |_| false, 0..links);
-    let mut depth = vec![0_usize; links];
-    let mut back: Vec<Option<(usize, usize)>> = vec![None; links];
-    let mut closing = vec![true; present.len()];
+/// Returns the edges of each biconnected block of a graph. Edges that are in no cycle are omitted.
+fn biconnected_blocks(nodes: usize, edges: &[[usize; 2]]) -> Vec<Vec<usize>> {
+    let (_, steps) = spanning_forest(nodes, edges.iter().copied(), |_| false, 0..nodes);
+    let mut depth = vec![0_usize; nodes];
+    let mut back: Vec<Option<(usize, usize)>> = vec![None; nodes];
+    let mut closing = vec![true; edges.len()];
     for s in &steps {
         depth[s.link] = depth[s.from] + 1;
         back[s.link] = Some((s.from, s.joint));
         closing[s.joint] = false;
     }
     let cycle = |e: usize| {
-        let ([mut a, mut b], mut out) = (ends(e), vec![present[e]]);
+        let ([mut a, mut b], mut out) = (edges[e], vec![e]);
         while a != b {
             let deeper = if depth[a] < depth[b] { &mut b } else { &mut a };
             let Some((from, joint)) = back[*deeper] else {
                 break;
             };
             *deeper = from;
-            out.push(present[joint]);
+            out.push(joint);
         }
         out
     };
-    connected_sets((0..present.len()).filter(|&e| closing[e]).map(cycle))
+    connected_sets((0..edges.len()).filter(|&e| closing[e]).map(cycle))
 }
 
-/// Returns Horton's candidates, shortest first: for each link v and joint (x, y) of a block, the shortest paths from v with the joint.
-fn shortest_cycles(
-    mechanism: &Mechanism,
-    present: &[JointId],
-) -> impl Iterator<Item = Vec<JointId>> {
+/// Returns Horton's candidates, shortest first: for each node v and edge (x, y) of a block, the shortest paths from v with the edge.
+fn shortest_cycles(nodes: usize, edges: &[[usize; 2]]) -> impl Iterator<Item = Vec<usize>> {
     // A small distinct excess on each weight makes shortest paths unique, which Horton's theorem requires. It also
-    // makes the choice among equal ones follow the order of the file.
+    // makes the choice among equal ones follow the order of the edges.
     const UNIT: u64 = 1 << 44;
-    let weighed = |joint: JointId| {
-        let i = present.partition_point(|&j| j < joint) as u64 + 1;
+    let weighed = |edge: usize| {
+        let i = edge as u64 + 1;
         let excess = i.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 38;
-        WeighedJoint {
-            joint,
+        WeighedEdge {
+            edge,
             length: UNIT + i * (1 << 20) + (excess & 0xf_ffff),
         }
     };
-    // A cycle lies within one block, and so do the shortest paths between links of a block.
-    let graph = |block: Vec<JointId>| {
+    // A cycle lies within one block, and so do the shortest paths between nodes of a block.
+    let graph = |block: Vec<usize>| {
         let (mut graph, mut nodes) = (Graph::default(), BTreeMap::new());
-        for j in block {
-            let ends = mechanism.joints[j].links;
-            let [a, b] = ends.map(|l| *nodes.entry(l).or_insert_with(|| graph.add_node(())));
-            graph.add_edge(a, b, weighed(j));
+        for e in block {
+            let [a, b] = edges[e].map(|n| *nodes.entry(n).or_insert_with(|| graph.add_node(())));
+            graph.add_edge(a, b, weighed(e));
         }
         graph
     };
-    let graphs: Vec<Graph> = biconnected_blocks(mechanism, present)
+    let graphs: Vec<Graph> = biconnected_blocks(nodes, edges)
         .into_iter()
         .map(graph)
         .collect();
@@ -238,7 +254,7 @@ fn shortest_cycles(
         graph.node_indices().map(tree).collect_vec()
     };
     let trees: Vec<(usize, Tree)> = graphs.iter().enumerate().flat_map(of).collect();
-    // (length, v, joint): the joints of a cycle are only listed on demand.
+    // (length, v, edge): the edges of a cycle are only listed on demand.
     let mut heap: BinaryHeap<Reverse<(u64, usize, usize)>> = trees
         .iter()
         .enumerate()
@@ -250,13 +266,13 @@ fn shortest_cycles(
         })
         .collect::<Vec<_>>()
         .into();
-    let mut waiting: Vec<Vec<JointId>> = Vec::new();
+    let mut waiting: Vec<Vec<usize>> = Vec::new();
     std::iter::from_fn(move || {
         if waiting.is_empty() {
-            // All of one length, almost always one cycle found from each of its links.
+            // All of one length, almost always one cycle found from each of its nodes.
             let Reverse((length, ..)) = heap.peek()?;
             let length = *length;
-            let mut equal: Vec<(Vec<JointId>, Vec<JointId>)> = Vec::new();
+            let mut equal: Vec<(Vec<usize>, Vec<usize>)> = Vec::new();
             while let Some(Reverse((l, v, e))) = heap.peek().copied() {
                 if l != length {
                     break;
@@ -274,17 +290,17 @@ fn shortest_cycles(
     })
 }
 
-/// A joint with its length in walks.
-struct WeighedJoint {
-    joint: JointId,
-    /// A unit, and a small excess that no other joint has.
+/// An edge with its length in walks.
+struct WeighedEdge {
+    edge: usize,
+    /// A unit, and a small excess that no other edge has.
     length: u64,
 }
 
-type Graph = UnGraph<(), WeighedJoint>;
+type Graph = UnGraph<(), WeighedEdge>;
 
-/// Returns the end of a joint that is not `x`.
-fn other_end(e: EdgeReference<'_, WeighedJoint>, x: NodeIndex) -> NodeIndex {
+/// Returns the end of an edge that is not `x`.
+fn other_end(e: EdgeReference<'_, WeighedEdge>, x: NodeIndex) -> NodeIndex {
     if e.source() == x {
         e.target()
     } else {
@@ -292,13 +308,13 @@ fn other_end(e: EdgeReference<'_, WeighedJoint>, x: NodeIndex) -> NodeIndex {
     }
 }
 
-/// Shortest paths from one link.
+/// Shortest paths from one node.
 struct Tree {
-    /// Distance of each reachable link.
+    /// Distance of each reachable node.
     dist: Vec<Option<u64>>,
-    /// The last joint on the path to each link.
+    /// The last edge on the path to each node.
     last: Vec<Option<EdgeIndex>>,
-    /// The first joint on the path to each link. Paths with different first joints do not meet.
+    /// The first edge on the path to each node. Paths with different first edges do not meet.
     first: Vec<Option<EdgeIndex>>,
 }
 
@@ -327,9 +343,9 @@ impl Tree {
         Tree { dist, last, first }
     }
 
-    /// Returns the length of the closed walk through a joint, if the two shortest paths to its ends share only their
-    /// first link. O(1).
-    fn closing_length(&self, e: EdgeReference<'_, WeighedJoint>) -> Option<(u64, usize)> {
+    /// Returns the length of the closed walk through an edge, if the two shortest paths to its ends share only their
+    /// first node. O(1).
+    fn closing_length(&self, e: EdgeReference<'_, WeighedEdge>) -> Option<(u64, usize)> {
         let (x, y) = (e.source().index(), e.target().index());
         let (dx, dy) = (self.dist[x]?, self.dist[y]?);
         let in_tree = dx.abs_diff(dy) == e.weight().length;
@@ -337,8 +353,8 @@ impl Tree {
         (!in_tree && apart).then(|| (dx + dy + e.weight().length, e.id().index()))
     }
 
-    /// Returns the joints of that walk, in order.
-    fn closing_cycle(&self, graph: &Graph, e: usize) -> Vec<JointId> {
+    /// Returns the edges of that walk.
+    fn closing_cycle(&self, graph: &Graph, e: usize) -> Vec<usize> {
         let e = EdgeIndex::new(e);
         let Some((x, y)) = graph.edge_endpoints(e) else {
             return Vec::new();
@@ -346,7 +362,7 @@ impl Tree {
         let path = |mut x: NodeIndex| {
             let mut out = Vec::new();
             while let Some(e) = self.last[x.index()] {
-                out.push(graph[e].joint);
+                out.push(graph[e].edge);
                 let Some((a, b)) = graph.edge_endpoints(e) else {
                     break;
                 };
@@ -355,14 +371,14 @@ impl Tree {
             out
         };
         let mut cycle = path(x);
-        cycle.push(graph[e].joint);
+        cycle.push(graph[e].edge);
         cycle.extend(path(y).into_iter().rev());
         cycle
     }
 }
 
-/// Rotates a contour to its first joint in file order, continuing towards the earlier of its neighbours.
-fn from_first(cycle: &[JointId]) -> Vec<JointId> {
+/// Rotates a cycle to its first edge, continuing towards the earlier of its neighbours.
+fn from_first(cycle: &[usize]) -> Vec<usize> {
     let first = cycle.iter().position_min().unwrap_or(0);
     let mut rotated = cycle[first..].to_vec();
     rotated.extend_from_slice(&cycle[..first]);
@@ -372,16 +388,16 @@ fn from_first(cycle: &[JointId]) -> Vec<JointId> {
     rotated
 }
 
-/// Independent sets of joints over the field of two elements.
+/// Independent sets of edges over the field of two elements.
 #[derive(Default)]
 struct Basis {
     rows: Vec<(usize, FixedBitSet)>,
 }
 
 impl Basis {
-    fn insert_cycle(&mut self, cycle: &[JointId], joints: usize) -> bool {
-        let mut bits = FixedBitSet::with_capacity(joints);
-        cycle.iter().for_each(|j| bits.toggle(j.index()));
+    fn insert_cycle(&mut self, cycle: impl Iterator<Item = usize>, edges: usize) -> bool {
+        let mut bits = FixedBitSet::with_capacity(edges);
+        cycle.for_each(|e| bits.toggle(e));
         for (pivot, row) in &self.rows {
             if bits.contains(*pivot) {
                 bits.symmetric_difference_with(row);

@@ -1,17 +1,42 @@
-//! The rate of a driven freedom, as a linear function of the twist between the links of its joint.
+//! The freedoms that drives move, and the rate of a driven freedom, as a linear function of the twist between the links of its joint.
 //!
 //! The rate is defined for every joint type that may replace the driven one. The rate of a turn is the angular velocity
 //! along the driven axis. The rate of a slide is the velocity along it of the point at the joint. The rate of a thread
 //! is that of its turn.
 
-use crate::closure::coupling::squared_axis_length;
+use crate::closure::coupling::{in_plane, squared_axis_length};
 use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
 use crate::geom::vector::{cross, dot, length};
 use crate::geom::{Reals, Scalars};
 use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{Frame, JointId, Mechanism};
+use crate::model::mechanism::{Frame, JointId, Mechanism, StateId};
+
+/// A driven joint and the freedom its drive moves.
+pub type Driven = (JointId, Freedom);
+
+/// Returns the freedoms that the drives of a state move, one for each driven joint that moves in the mechanism's space. If
+/// the plane of a mechanism does not have the usual one and the file names none, it is the first one that the plane has.
+///
+/// # Examples
+/// ```
+/// use ozols::{closure::drive::driven_freedoms, model::{joint_type::Freedom, mechanism::StateId}};
+/// let four_bar = ozols::built_in("four-bar")?;
+/// assert_eq!(driven_freedoms(&four_bar, StateId::FREE)[0].1, Freedom::Rz);
+/// # Ok::<(), ozols::Error>(())
+/// ```
+#[must_use]
+pub fn driven_freedoms(mechanism: &Mechanism, state: StateId) -> Vec<Driven> {
+    let driven = |j: JointId| {
+        let joint = &mechanism.joints[j];
+        let others = joint.joint_type.freedoms().iter().copied();
+        let others = others.filter(|_| joint.drive_freedom.is_none());
+        let mut all = std::iter::once(joint.driven_freedom()?).chain(others);
+        Some((j, all.find(|&f| in_plane(mechanism, j, f))?))
+    };
+    mechanism.joints_in(state).filter_map(driven).collect()
+}
 
 /// Returns the rate of a drive as coefficients of the twist of a joint in the frame `at`, up to a factor. The factor is
 /// the same for all joint types that may be there. Returns `None` if the search follows no drive at the joint.

@@ -56,6 +56,7 @@ pub(crate) fn draw_mechanism(joints: &[Drawn], outputs: &[usize]) -> Mechanism {
         expected: Vec::new(),
         claims: Vec::new(),
         assumed: Vec::new(),
+        tables: Default::default(),
     })
 }
 

@@ -6,6 +6,7 @@ use crate::model::claim::Claim;
 use crate::model::joint_type::{Coupling, Freedom, JointType};
 use crate::model::loads::{Loads, MassProperties};
 use crate::model::ranking::{Ranking, TypeOverride};
+use serde_json::Value;
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -139,12 +140,6 @@ impl Joint {
         self.states.as_ref().is_none_or(|s| s.contains(&state))
     }
 
-    /// Returns true if the drive may move this freedom: the named one, or any if none is named.
-    #[must_use]
-    pub fn may_drive(&self, freedom: Freedom) -> bool {
-        self.drive && self.drive_freedom.is_none_or(|named| named == freedom)
-    }
-
     /// Returns the options that a search may use or insert here.
     pub fn offered_options(&self) -> impl Iterator<Item = &JointOption> {
         self.options.iter().chain(&self.unloading)
@@ -220,6 +215,8 @@ pub struct Parts {
     /// Assumptions and omissions of the reader of another format, one sentence each. The figures are those of the file
     /// as read.
     pub assumed: Vec<String>,
+    /// Workload, ranking, figures and claims as the tables of the file, which are written back. Null if it has no file.
+    pub tables: Arc<Value>,
 }
 
 /// A validated mechanism: parts that cannot be changed, with the guarantees of [`Mechanism::new`].
@@ -321,6 +318,14 @@ impl Parts {
     pub fn joints_added_in(&self, state: StateId) -> impl Iterator<Item = JointId> + '_ {
         let only_here = |j: &JointId| !self.joints[*j].is_in(StateId::FREE);
         self.joints_in(state).filter(only_here)
+    }
+
+    /// Returns the links that have a joint in a state, in file order.
+    pub fn links_in(&self, state: StateId) -> impl Iterator<Item = LinkId> + '_ {
+        let mut present = vec![false; self.links.len()];
+        let ends = self.joints_in(state).flat_map(|j| self.joints[j].links);
+        ends.for_each(|l| present[l.index()] = true);
+        self.link_ids().filter(move |l| present[l.index()])
     }
 
     /// Returns the couplings of a state, those whose joints are present in it, in file order.

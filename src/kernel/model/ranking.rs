@@ -183,39 +183,6 @@ impl Serialize for Term {
     }
 }
 
-/// Order of variants by several terms.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Order {
-    /// By the sum of weight times term.
-    #[default]
-    Weighted,
-    /// By the first term, then the second, and so on.
-    Lexicographic,
-    /// By Pareto fronts: first the variants that are not dominated by another in all terms.
-    Pareto,
-}
-
-impl Order {
-    /// Every order with its word.
-    pub const ALL: [(Order, &'static str); 3] = [
-        (Order::Weighted, "weighted"),
-        (Order::Lexicographic, "lexicographic"),
-        (Order::Pareto, "pareto"),
-    ];
-
-    /// Returns the word used for it in files and results.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        Order::ALL[self as usize].1
-    }
-}
-
-impl Serialize for Order {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.name())
-    }
-}
-
 /// Addition of clearances at the outputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -238,12 +205,10 @@ pub struct Limit {
     pub max: Option<f64>,
 }
 
-/// A ranking.
+/// A ranking, by the sum of weight times term.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Ranking {
-    /// The order.
-    pub order: Order,
-    /// The terms with their nonnegative weights, the most important first.
+    /// The terms with their nonnegative weights.
     #[serde(serialize_with = "with_weights")]
     pub terms: Vec<(Term, f64)>,
     /// Bounds to keep.

@@ -12,7 +12,7 @@ use crate::linalg::modp::{Field, Residue};
 pub(crate) type Series = Vec<Residue>;
 
 /// Three rows of a rotation, each followed by its component of the translation.
-pub(crate) type Term = [[Residue; 4]; 3];
+type Term = [[Residue; 4]; 3];
 
 /// A displacement as a power series; its coefficient of t⁰ is the identity.
 #[derive(Debug, Clone)]
@@ -130,7 +130,7 @@ pub(crate) fn shifted_multiples(terms: &[impl AsRef<[Residue]>]) -> Vec<Vec<Resi
 }
 
 /// Returns the matrix of a twist (ω; v): the rows of ω's cross product, each with its component of v.
-pub(crate) fn twist_matrix(f: Field, s: &Twist<Residue>) -> Term {
+fn twist_matrix(f: Field, s: &Twist<Residue>) -> Term {
     let [x, y, z, u, v, w] = *s;
     [
         [0, f.neg(z), y, u],
@@ -145,7 +145,7 @@ fn twist_of(t: &Term) -> Twist<Residue> {
 }
 
 /// Returns the product of two matrices whose last rows are zero.
-pub(crate) fn product(f: Field, a: &Term, b: &Term) -> Term {
+fn product(f: Field, a: &Term, b: &Term) -> Term {
     let entry = |i: usize, j: usize| f.dot(&a[i][..3], &[b[0][j], b[1][j], b[2][j]]);
     [0, 1, 2].map(|i| [0, 1, 2, 3].map(|j| entry(i, j)))
 }

@@ -94,11 +94,7 @@ impl Elimination {
     ///
     /// # Errors
     /// Returns an error if the singular values do not converge.
-    pub(crate) fn rank_of(
-        self,
-        matrix: &Matrix,
-        tolerance: f64,
-    ) -> Result<NumericRank, NumericError> {
+    pub fn rank_of(self, matrix: &Matrix, tolerance: f64) -> Result<NumericRank, NumericError> {
         let values = match self {
             Elimination::Lu32 => Format::Single.lu_pivots(matrix),
             Elimination::Lu => Format::Double.lu_pivots(matrix),

@@ -20,7 +20,7 @@ use crate::redundancy::contour_shares::Measured;
 pub use crate::redundancy::contour_shares::{ContourShare, CouplingShare};
 use crate::redundancy::contour_shares::{contour_shares, coupling_shares};
 pub use crate::redundancy::external::External;
-use crate::redundancy::external::{external_constraints, freedoms_of, present_links};
+use crate::redundancy::external::{external_constraints, freedoms_of};
 use crate::redundancy::local_mobility::{Idle, idle_motions};
 use crate::redundancy::motion::{DriveFault, drive_faults};
 use crate::redundancy::motion::{motion_basis, output_links, span_of_links};
@@ -396,14 +396,14 @@ fn analyse_exactly(
     }
     let freedoms = closure.columns.len();
     let joints: Vec<JointId> = mechanism.joints_in(state).collect();
-    let links = present_links(mechanism, &joints);
+    let links = mechanism.links_in(state).count();
     let constraints: i64 = joints
         .iter()
         .map(|&j| to_i64(closure.dim) - to_i64(freedoms_of(&closure, j)))
         .sum();
     Ok(StateAnalysis {
         state: mechanism.states[state].clone(),
-        links: links.len(),
+        links,
         joints: joints.len(),
         contours: closure.contours.len(),
         freedoms,
@@ -415,7 +415,7 @@ fn analyse_exactly(
         working_mobility,
         local_mobility: kernel.len() - working_mobility,
         redundant: closure.rows() - rank,
-        formula_mobility: to_i64(closure.dim) * (to_i64(links.len()) - 1)
+        formula_mobility: to_i64(closure.dim) * (to_i64(links) - 1)
             - constraints
             - to_i64(closure.couplings.len()),
         least_rows: Some(least_rows),

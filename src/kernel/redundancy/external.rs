@@ -4,7 +4,7 @@ use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
-use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::exact::modular;
 use crate::rank::method::to_i64;
 use crate::redundancy::motion::Speeds;
@@ -50,8 +50,8 @@ pub(super) fn external_constraints(
             .map(|&j| to_i64(closure.dim) - to_i64(freedoms_of(&free, j)))
             .sum::<i64>();
     let constraints = of_joints + to_i64(closure.couplings.len()) - to_i64(free.couplings.len());
-    let bodies =
-        to_i64(present_links(mechanism, &all).len()) - to_i64(present_links(mechanism, &own).len());
+    let links = |state| to_i64(mechanism.links_in(state).count());
+    let bodies = links(closure.state) - links(StateId::FREE);
     // The mechanism's own part of each motion.
     let mut span = Echelon::new(exact.field());
     for speeds in kernel {
@@ -76,14 +76,4 @@ pub(super) fn external_constraints(
 
 pub(super) fn freedoms_of(closure: &Closure<Residue>, joint: JointId) -> usize {
     closure.columns.iter().filter(|c| c.joint == joint).count()
-}
-
-pub(super) fn present_links(mechanism: &Mechanism, joints: &[JointId]) -> Vec<LinkId> {
-    let mut links: Vec<LinkId> = joints
-        .iter()
-        .flat_map(|&j| mechanism.joints[j].links)
-        .collect();
-    links.sort_unstable();
-    links.dedup();
-    links
 }

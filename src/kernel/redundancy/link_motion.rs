@@ -10,11 +10,10 @@
 use crate::closure::tree::path_from_frame;
 use crate::geom::exact::ExactError;
 use crate::geom::vector::{Vector, X, Y, Z, add, cross, dot, length, scale, sub};
-use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use crate::model::mechanism::{LinkId, Mechanism, StateId};
 use crate::motion::pose::{FLAT, Pose};
 use crate::rank::finite::local_dimension::null_space_of;
 use crate::redundancy::analysis::StateAnalysis;
-use crate::redundancy::external::present_links;
 use crate::redundancy::motion::output_links;
 use ozols_dense::{Matrix, norm, svd};
 
@@ -89,8 +88,7 @@ impl StateAnalysis {
     /// ```
     pub fn output_motions(&self, mechanism: &Mechanism) -> Result<Vec<LinkMotion>, ExactError> {
         let state = mechanism.state_named(&self.state).unwrap_or(StateId::FREE);
-        let joints: Vec<JointId> = mechanism.joints_in(state).collect();
-        let there = present_links(mechanism, &joints);
+        let there: Vec<LinkId> = mechanism.links_in(state).collect();
         let mut outputs = output_links(mechanism);
         outputs.retain(|l| there.contains(l));
         self.link_motions(mechanism, &outputs, mechanism.frame_link())

@@ -45,7 +45,7 @@ pub fn idle_motions(
     kernel: &[Speeds],
     outputs: &[LinkId],
 ) -> Vec<Idle> {
-    let ids = joined_links(mechanism, closure);
+    let ids: Vec<LinkId> = mechanism.links_in(closure.state).collect();
     let there = ids.iter().copied().filter(|l| outputs.contains(l));
     let there: Vec<LinkId> = there.collect();
     let all = at_rest(exact, mechanism, closure, kernel, &there);
@@ -74,12 +74,6 @@ pub fn idle_motions(
         }
     }
     found
-}
-
-/// Returns the links that have a joint in a state.
-fn joined_links(mechanism: &Mechanism, closure: &Closure<Residue>) -> Vec<LinkId> {
-    let is_joined = |l: &LinkId| mechanism.joints_at(*l, closure.state).next().is_some();
-    mechanism.link_ids().filter(is_joined).collect()
 }
 
 /// Returns the motions under which all of some outputs are at rest.

@@ -244,7 +244,7 @@ pub(super) type Wrench<N> = [N; 6];
 /// A self-stress of planar mode has three numbers per contour, a moment about the plane's normal n and forces along the
 /// e1 and e2 of [`MotionSpace`]. As a wrench in space this is (μ n; f1 e1 + f2 e2), whose power on any twist in the
 /// plane is the same.
-pub(super) struct JointWrenches<'a, S: Scalars> {
+pub(crate) struct JointWrenches<'a, S: Scalars> {
     s: &'a S,
     dim: usize,
     space: MotionSpace<S::Number>,
@@ -255,7 +255,7 @@ pub(super) struct JointWrenches<'a, S: Scalars> {
 
 impl<'a, S: Scalars> JointWrenches<'a, S> {
     /// Prepares the joints of a mechanism, with the contours of any closure of the state.
-    pub(super) fn new<N>(
+    pub(crate) fn new<N>(
         s: &'a S,
         m: &Mechanism,
         closure: &Closure<N>,
@@ -280,8 +280,9 @@ impl<'a, S: Scalars> JointWrenches<'a, S> {
         std::array::from_fn(|_| S::Number::default())
     }
 
-    /// Returns the wrench of a self-stress on a joint.
-    pub(super) fn wrench_at(&self, stress: &[S::Number], joint: JointId) -> Wrench<S::Number> {
+    /// Returns the wrench of a self-stress on a joint as the coordinates whose products with those of a twist give its power: six numbers, or
+    /// three in a plane.
+    pub(crate) fn coordinates_at(&self, stress: &[S::Number], joint: JointId) -> Vec<S::Number> {
         let s = self.s;
         let mut sum = vec![S::Number::default(); self.dim];
         for &(i, forward) in &self.passes[joint] {
@@ -294,6 +295,12 @@ impl<'a, S: Scalars> JointWrenches<'a, S> {
                 };
             }
         }
+        sum
+    }
+
+    /// Returns the wrench of a self-stress on a joint.
+    pub(super) fn wrench_at(&self, stress: &[S::Number], joint: JointId) -> Wrench<S::Number> {
+        let (s, sum) = (self.s, self.coordinates_at(stress, joint));
         let (m, f) = match (&self.space, &sum[..]) {
             (MotionSpace::Planar { axes: [n, e1, e2] }, [turn, along, across]) => {
                 let first = s.scaled_sum(along.clone(), e1.clone(), self.zero_vector());

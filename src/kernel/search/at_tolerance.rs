@@ -21,7 +21,8 @@ use crate::search::question::rounded_rank::Digits;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::SeedableRng;
 use found::Met;
-use judge::{Judge, Judged, Standing};
+use in_state::Answer;
+use judge::{Judge, Judged};
 use num_traits::ToPrimitive;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -37,32 +38,32 @@ const AT_ONCE: usize = 2048;
 /// Number of variants that a thread examines between two checks for cancellation.
 const BLOCK: usize = 64;
 
-/// Searches by singular values. If the space is too large to examine completely, finds the `list` cheapest variants and
-/// draws a sample from `seed`.
-///
-/// # Errors
-/// Returns an error if a coordinate has no value.
-///
-/// # Complexity
-/// Two or three decompositions per variant. They run in parallel, for at most [`WHOLE`] variants. Their matrices have 6k rows.
-pub(crate) fn at_tolerance(
-    question: &mut Question,
-    digits: Digits,
-    list: usize,
-    seed: u64,
-    cancelled: &(dyn Fn() -> bool + Sync),
-) -> Result<AtTolerance, ExactError> {
-    let judge = Judge::new(question, digits)?;
-    let looking = Looking {
-        question,
-        judge: &judge,
-        cancelled,
-    };
-    let found = looking.search_variants(list, seed);
-    let motion = judge.motion_dimension();
-    drop(judge);
-    question.present = Some(motion);
-    Ok(found)
+impl Question {
+    /// Tests variants by singular values, if exact arithmetic does not have the intended mechanism. If there are too many to
+    /// test each, it tests the `list` cheapest and a sample drawn from `seed`.
+    ///
+    /// # Errors
+    /// Returns an error if a coordinate has no value.
+    ///
+    /// # Complexity
+    /// Two or three decompositions per variant. They run in parallel, for at most [`WHOLE`] variants. Their matrices have 6k rows.
+    pub fn at_tolerance(
+        &mut self,
+        digits: Digits,
+        list: usize,
+        seed: u64,
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Result<AtTolerance, ExactError> {
+        let judge = Judge::new(self, digits)?;
+        let looking = Looking {
+            question: self,
+            judge: &judge,
+            cancelled,
+        };
+        let found = looking.search_variants(list, seed);
+        self.present = Some(judge.motion_dimension());
+        Ok(found)
+    }
 }
 
 /// A question whose variants are examined.
@@ -140,7 +141,8 @@ impl Looking<'_> {
             let block = all.by_ref().take(AT_ONCE).map(|v| v.choices).collect();
             for (choices, judged) in self.judge_all(block) {
                 met.add_judged(&judged);
-                if let Standing::Sure(key) = judged.admissible {
+                if judged.admissible == Answer::Yes {
+                    let key = judged.key;
                     list.push(Assignment { choices, key });
                 }
             }
@@ -167,12 +169,12 @@ impl Looking<'_> {
         let mut seen = BTreeSet::new();
         let mut shares = [[0usize; 2]; 2];
         for (choices, judged) in &drawn {
-            for (standing, [sure, may]) in [judged.determinate, judged.admissible]
+            for (answer, [sure, may]) in [judged.determinate, judged.admissible]
                 .iter()
                 .zip(&mut shares)
             {
-                *sure += usize::from(matches!(standing, Standing::Sure(_)));
-                *may += usize::from(*standing != Standing::No);
+                *sure += usize::from(*answer == Answer::Yes);
+                *may += usize::from(*answer != Answer::No);
             }
             let chosen = self.question.steps.keys.iter().zip(choices);
             let cost = chosen.map(|(keys, &c)| keys[c].cost()).sum::<u64>();

@@ -1,7 +1,7 @@
 //! What tests alone need of the inside of a search, and nothing else may use.
 
-use super::answer::ideas::{IdeaBasis, idea_variants, ideas_in_steps};
-use super::answer::k_best::{Cheapest, Enter, ListLimits, Reach};
+use super::answer::ideas::ideas_in_steps;
+use super::answer::k_best::{Cheapest, ListLimits, Reach};
 use super::answer::keys::Key;
 use super::build::Diagrams;
 use super::build::lanes::in_self_stress_space;
@@ -47,27 +47,6 @@ pub fn from_both_ends(question: &Question) -> Vec<[Option<Diagram>; 2]> {
     out
 }
 
-fn cheapest_variants<'d>(
-    question: &'d Question,
-    found: &'d Diagrams,
-    top: usize,
-    enter: Enter<'d>,
-) -> Cheapest<'d, u128> {
-    let limits = ListLimits {
-        reach: Reach::Variants(top),
-        ceiling: u64::MAX,
-    };
-    Cheapest::new(
-        &found.admissible,
-        &question.steps,
-        limits,
-        |_| true,
-        |k| k,
-        usize::MAX,
-        enter,
-    )
-}
-
 /// How long a list is, and how many steps down a diagram it took.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Walked {
@@ -85,7 +64,20 @@ pub fn walked_for_variants(question: &Question, found: &Diagrams, top: usize) ->
         steps += 1;
         true
     };
-    let listed = cheapest_variants(question, found, top, Box::new(enter)).count();
+    let limits = ListLimits {
+        reach: Reach::Variants(top),
+        ceiling: u64::MAX,
+    };
+    let (diagram, steps_of) = (&found.admissible, &question.steps);
+    let listed = Cheapest::new(
+        question,
+        diagram,
+        steps_of,
+        limits,
+        &|_| true,
+        Box::new(enter),
+    );
+    let listed = listed.count();
     Walked { listed, steps }
 }
 
@@ -95,8 +87,8 @@ pub fn walked_for_ideas(question: &Question, found: &Diagrams, top: usize) -> Wa
     let mut steps = 0;
     let listed = ideas_in_steps(
         question,
-        &IdeaBasis::of_question(question),
-        &idea_variants(question, found),
+        &question.idea_basis(),
+        &question.idea_variants(found),
         top,
         &mut steps,
     )

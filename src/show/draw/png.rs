@@ -1,7 +1,6 @@
 //! A drawing as PNG. DejaVu Sans is built in, so that the picture is the same on every machine. System fonts serve only
 //! for characters that it lacks.
 
-use crate::draw::Size;
 use crate::draw::sheet::Drawing;
 use resvg::usvg::fontdb::Database;
 use resvg::{tiny_skia, usvg};
@@ -41,15 +40,15 @@ pub struct Picture {
     pub missing: BTreeSet<char>,
 }
 
-/// Returns the drawing as PNG on white.
+/// Pixels for each of the drawing's, by default.
+const ZOOM: f64 = 2.0;
+
+/// Returns the drawing as PNG on white, with a width in pixels, or with twice that of the drawing.
 ///
 /// # Errors
 /// Returns an error if the picture would be too large for memory.
-pub fn png(drawing: &Drawing, size: Size) -> Result<Picture, PngError> {
-    let zoom = match size {
-        Size::Scale(zoom) => zoom,
-        Size::Width(width) => f64::from(width) / drawing.width,
-    };
+pub fn png(drawing: &Drawing, width: Option<u32>) -> Result<Picture, PngError> {
+    let zoom = width.map_or(ZOOM, |width| f64::from(width) / drawing.width);
     let (width, height) = (zoom * drawing.width, zoom * drawing.height);
     let too_large = || PngError::TooLarge { width, height };
     let pixels = |x: f64| x.round().max(1.0);

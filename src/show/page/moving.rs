@@ -9,8 +9,7 @@ use crate::motion::drive_range::{SLIDE, Way, follow_range as way_of};
 use crate::motion::follow::column_slides;
 use crate::motion::jaws::jaws_meet;
 use crate::motion::pose::Pose;
-use crate::motion::working::working_way;
-use crate::rank::stroke::request::{AskedError, drive_or_any, lengths_where_it_slides, name_of};
+use crate::rank::stroke::request::{drive_or_any, lengths_where_it_slides, name_of};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::local_mobility::{FAR, animate_idle};
 use crate::view::analysis::link_motions;
@@ -54,13 +53,7 @@ impl Moving {
         named: Option<&str>,
     ) -> anyhow::Result<Moving> {
         let pose = Pose::of_file(m, state)?;
-        let (drive, held) = match drive_or_any(m, &pose, state, named) {
-            // Balls have no axes of their own to be driven about.
-            Err(AskedError::Still { .. }) if range.is_none() => {
-                return Self::working_motion(m, state, pose);
-            }
-            found => found?,
-        };
+        let (drive, held) = drive_or_any(m, &pose, state, named)?;
         let slide = column_slides(&pose, drive);
         let unit = if slide { pose.length } else { 1.0 };
         let symbol = if slide { m.length_unit.symbol } else { "rad" };
@@ -113,19 +106,6 @@ impl Moving {
     /// Returns the ends of the drive's range, in radians or the file's length unit.
     pub fn drive_reach(&self) -> Option<[f64; 2]> {
         ends_of(&self.way).map(|ends| ends.map(|x| x * self.unit.0))
-    }
-
-    /// Returns the working motion of a mechanism in which no joint can be the drive.
-    fn working_motion(m: &Mechanism, state: StateId, pose: Pose) -> anyhow::Result<Moving> {
-        let way = working_way(m, state, &pose, STEPS)
-            .with_context(|| format!("{}: no output moves from the pose of the file", m.name))?;
-        let words = "the outputs' motion that is the largest for its size, no joint being a drive";
-        Ok(Moving {
-            pose,
-            way,
-            words: words.to_owned(),
-            unit: (1.0, "rad".to_owned()),
-        })
     }
 
     /// Returns the motion back and forth along an idle freedom that the analysis of a state lists, counted from 0.

@@ -239,8 +239,7 @@ fn ranked_json(r: &Redesigns<'_>, p: &RankedPool) -> Value {
         "notes": ranking_notes(m, p),
         "terms": p.ranking.terms.iter().map(|(t, _)| t.name()).collect::<Vec<_>>(),
         "by_cost": all().map(|x| x.map(|r| r.by_cost)).collect::<Vec<_>>(),
-        "total": all().map(|x| x.and_then(|r| r.total).map(five_digits)).collect::<Vec<_>>(),
-        "front": all().map(|x| x.and_then(|r| r.front)).collect::<Vec<_>>(),
+        "total": all().map(|x| x.map(|r| five_digits(r.total))).collect::<Vec<_>>(),
         "reason": r.variants.iter().map(|v| v.place_reason()).collect::<Vec<_>>(),
     })
 }

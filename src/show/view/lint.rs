@@ -109,12 +109,7 @@ impl Lint {
             }),
             over_motion: found.over.map(|o| as_read(m, o.describe())),
             left_out: report.map_or(0, Report::left_out),
-            approximated: report.map_or(Vec::new(), |r| {
-                let notes = r.approximated.iter();
-                notes
-                    .map(|n| format!("{}: {}", n.element, n.what))
-                    .collect()
-            }),
+            approximated: report.map_or(Vec::new(), |r| r.approximated.clone()),
             assumptions: m.assumed.clone(),
             read_with: with_assumptions(m),
             moved: report.map_or(Vec::new(), |r| r.moved.clone()),

@@ -2,8 +2,9 @@
 
 use crate::format::decimals;
 use crate::motion::follow::Stop;
-use crate::rank::stroke::analysis::{Output, PoseFigures, RankChange, StrokeFigures};
-use crate::rank::stroke::request::AskedStroke;
+use crate::rank::stroke::analysis::{
+    Output, PoseFigures, RankChange, StrokeFigures, StrokeRequest,
+};
 use crate::view::prelude::*;
 
 /// The figures over a stroke; positions in radians or, where the drive slides, in the file's length unit.
@@ -22,15 +23,15 @@ pub struct StrokeData<'a> {
 
 impl<'a> StrokeData<'a> {
     /// Follows a stroke that is asked for, and says what was found.
-    pub fn follow_stroke(asked: &AskedStroke<'a>) -> StrokeData<'a> {
-        let (m, state) = asked.subject();
+    pub fn follow_stroke(asked: &StrokeRequest<'a>) -> StrokeData<'a> {
+        let (m, state) = (asked.mechanism, asked.state);
         let (drive, slides) = asked.drive_name();
         StrokeData {
             mechanism: m,
             state: &m.states[state],
             drive,
             unit: if slides { m.length_unit.symbol } else { "rad" },
-            range: asked.range(),
+            range: asked.range,
             found: asked.follow_stroke(),
         }
     }

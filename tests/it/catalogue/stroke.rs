@@ -14,7 +14,7 @@ use ozols::synthesis::task::AskedMotion;
 pub(super) fn read_layout(s: &Structure, l: &Drawn) -> Gripper {
     let menu = Spec::default().option_menu().unwrap();
     let file = mechanism_file(s, l, &menu, &Workload::default());
-    Gripper::read(&write::toml(&file, &[]).unwrap())
+    Gripper::read(&write::toml(&file).unwrap())
 }
 
 fn near(told: f64, found: f64, within: f64, what: &str, s: &Structure) {

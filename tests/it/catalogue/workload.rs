@@ -113,7 +113,7 @@ fn the_drive_does_the_work_of_part_and_links() {
         let l = layout(&s, &Limits::default(), 1).unwrap();
         let file = mechanism_file(&s, &l, &Spec::default().option_menu().unwrap(), &workload);
         let path = path_in(&folder, &format!("{n}.toml"));
-        fs::write(&path, write::toml(&file, &[]).unwrap()).unwrap();
+        fs::write(&path, write::toml(&file).unwrap()).unwrap();
         // Points that forces act at, with the force in the plane.
         let mut acting: Vec<(usize, [f64; 2], [f64; 2])> = Vec::new();
         for link in (0..s.structure.chain.links()).filter(|&k| k != s.structure.roles.frame) {

@@ -10,6 +10,7 @@ pub(crate) use ozols::chains::chain::Chain;
 pub(crate) use ozols::chains::classics::known_classics;
 pub(crate) use ozols::chains::enumerate::list_chains;
 pub(crate) use ozols::chains::structure::PairStructure;
+pub(crate) use ozols::closure::drive::driven_freedoms;
 pub(crate) use ozols::draw::{Drawing, Rect, kinematic};
 pub(crate) use ozols::drive::swing::Feed;
 pub(crate) use ozols::file::read::workload::drive_from_bytes;
@@ -23,7 +24,7 @@ pub(crate) use ozols::model::loads::{
     ExternalForce, ExternalMoment, Inertia, MassProperties, Stroke,
 };
 pub(crate) use ozols::model::mechanism::{Frame, JointOption};
-pub(crate) use ozols::model::ranking::{ClearanceSum, Limit, Order, Term};
+pub(crate) use ozols::model::ranking::{ClearanceSum, Limit, Term};
 pub(crate) use ozols::model::rounded::uncertainties;
 pub(crate) use ozols::motion::follow::Follower;
 pub(crate) use ozols::motion::pose::Pose;
@@ -56,7 +57,6 @@ pub(crate) use ozols::statics::assur::decompose_groups;
 pub(crate) use ozols::statics::cycle::planar_statics;
 pub(crate) use ozols::statics::planar::PlanarMechanism;
 pub(crate) use ozols::statics::reactions::cycle::follow_to;
-pub(crate) use ozols::statics::reactions::drives::driven_freedoms;
 pub(crate) use ozols::statics::reactions::geometry::Geometry;
 pub(crate) use ozols::statics::reactions::{
     JointReaction, Reactions, Solution, Uniqueness, Unsolved,

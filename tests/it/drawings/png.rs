@@ -2,17 +2,14 @@
 
 use crate::common::*;
 #[test]
-fn sizes_are_for_png() {
-    assert_fails("draw bennett --scale 2", "--scale and --width");
-    assert_fails("draw bennett --width 90", "--scale and --width");
+fn a_width_is_for_png() {
+    assert_fails("draw bennett --width 90", "--width is for PNG");
 }
 
 #[cfg(not(feature = "png"))]
 #[test]
 fn a_build_without_png_says_so() {
     let dir = Folder::new();
-    dir.assert_fails("draw bennett --png", "--features png");
-    // the name asks for it
     dir.assert_fails("draw bennett -o x.PNG", "--features png");
     assert_eq!(dir.names(), [""; 0]);
 }
@@ -22,7 +19,6 @@ mod with_png {
     use crate::common::*;
     use crate::drawings::subject;
     use ozols::draw::Sight;
-    use ozols::draw::Size;
     use ozols::draw::Subject;
     use ozols::draw::kinematic_seen;
     use ozols::draw::png::png;
@@ -46,7 +42,7 @@ mod with_png {
     fn every_label_is_there() {
         for name in ["gripper-10", "stewart-gough", "y-star"] {
             for d in drawings(name) {
-                let made = png(&d, Size::Scale(1.5)).unwrap();
+                let made = png(&d, Some((1.5 * d.width).round() as u32)).unwrap();
                 assert!(made.missing.is_empty(), "{:?}", made.missing);
                 let picture = Pixmap::decode_png(&made.png).unwrap();
                 assert_eq!(f64::from(picture.width()), (1.5 * d.width).round());
@@ -94,7 +90,7 @@ mod with_png {
             labels: Vec::new(),
             symbols: Vec::new(),
         };
-        let made = png(&alone, Size::Width(pixels)).unwrap();
+        let made = png(&alone, Some(pixels)).unwrap();
         let picture = Pixmap::decode_png(&made.png).unwrap();
         picture.pixels().iter().map(|p| p.red()).collect()
     }
@@ -111,7 +107,7 @@ mod with_png {
                 .map(|t| {
                     let m = single(t.name());
                     let subject = subject(&m);
-                    symbol(&kinematic_seen(&subject, &sight), 24)
+                    symbol(&kinematic_seen(&subject, &sight, None), 24)
                 })
                 .collect();
             for (i, a) in seen.iter().enumerate() {
@@ -154,7 +150,7 @@ mod with_png {
                 let rule =
                     format!("[data-contour=\"{c}\"] path{{fill:#ff00ff !important}}</style>");
                 d.svg = plain.replacen("</style>", &rule, 1);
-                let made = png(&d, Size::Scale(1.0)).unwrap();
+                let made = png(&d, Some(d.width.round() as u32)).unwrap();
                 let picture = Pixmap::decode_png(&made.png).unwrap();
                 let tinted = |p: &&tiny_skia::PremultipliedColorU8| {
                     p.red() > 240 && p.green() < 15 && p.blue() > 240
@@ -168,13 +164,7 @@ mod with_png {
     #[test]
     fn too_large_is_an_error() {
         let [d, _] = drawings("four-bar");
-        for size in [
-            Size::Scale(1e9),
-            Size::Scale(f64::NAN),
-            Size::Width(u32::MAX),
-        ] {
-            assert!(png(&d, size).is_err(), "{size:?}");
-        }
+        assert!(png(&d, Some(u32::MAX)).is_err());
     }
 
     #[test]
@@ -184,10 +174,11 @@ mod with_png {
         let file = dir.bytes("x.png");
         let picture = Pixmap::decode_png(&file).unwrap();
         assert_eq!(picture.width(), 321);
-        let piped = run("draw four-bar --png --width 321");
-        assert_eq!(piped.stdout, file);
-        assert_fails("draw four-bar --png --scale 0", "--scale");
-        assert_fails("draw four-bar --png --width 0", "--width");
-        assert_fails("draw four-bar --png --width 99999", "too large");
+        dir.succeed("draw four-bar -o y.png");
+        let twice = Pixmap::decode_png(&dir.bytes("y.png")).unwrap();
+        let drawn = drawings("four-bar")[1].width;
+        assert_eq!(f64::from(twice.width()), (2.0 * drawn).round());
+        dir.assert_fails("draw four-bar -o z.png --width 0", "--width");
+        dir.assert_fails("draw four-bar -o z.png --width 99999", "too large");
     }
 }

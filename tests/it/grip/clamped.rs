@@ -21,9 +21,7 @@ fn clamped(m: &Mechanism) -> Gripping {
 
 fn solve(g: &Gripping, row: &DiameterRow) -> Solution {
     let (fit, loads) = (g.fit_part(row).unwrap(), g.jaw_loads(row).unwrap());
-    let home = Pose::of_file(&g.mechanism, StateId::new(1)).unwrap();
-    let geometry = Geometry::new(&g.mechanism, StateId::new(1), &home).unwrap();
-    let drives = driven_freedoms(&g.mechanism, &geometry).unwrap();
+    let drives = driven_freedoms(&g.mechanism, StateId::new(1));
     Reactions::solve_at(
         &g.mechanism,
         StateId::new(1),
@@ -76,9 +74,7 @@ fn the_contact_forces_do_the_work_of_the_drive_and_no_other() {
     let metres = m.length_unit.metres;
     for row in &g.study.rows {
         let (fit, loads) = (g.fit_part(row).unwrap(), g.jaw_loads(row).unwrap());
-        let home = Pose::of_file(&g.mechanism, StateId::new(1)).unwrap();
-        let geometry = Geometry::new(&g.mechanism, StateId::new(1), &home).unwrap();
-        let drives = driven_freedoms(&g.mechanism, &geometry).unwrap();
+        let drives = driven_freedoms(&g.mechanism, StateId::new(1));
         let h = 1e-3;
         let steps = [-2.0, -1.0, 1.0, 2.0].map(|k| fit.drive + k * h);
         let poses = follow_to(&g.mechanism, StateId::new(1), &drives, &steps)

@@ -4,7 +4,6 @@ use crate::common::*;
 use ozols::geom::extent::Extent;
 use ozols::motion::drive_range::Way;
 use ozols::motion::jaws::jaws_meet;
-use ozols::motion::working::working_way;
 
 /// A nut of 10 mm lead goes 10 mm a turn, whatever the size of what it belongs to.
 #[test]
@@ -59,18 +58,6 @@ fn paths_pass_joints_either_way() {
     for (a, b) in there.iter().zip(&back) {
         assert_nine_digits(*a, -b);
     }
-}
-
-/// A way of the outputs counts from the pose of the file, to either side alike.
-#[test]
-fn ways_count_from_the_files_pose() {
-    let m = built_in("four-bar");
-    let pose = Pose::of_file(&m, StateId::FREE).unwrap();
-    let way = working_way(&m, StateId::FREE, &pose, 20).unwrap();
-    assert!(way.start > 0);
-    assert_nine_digits(way.at[way.start], 0.0);
-    assert!(way.at.windows(2).all(|w| w[0] < w[1]));
-    assert!(way.at[0] < 0.0);
 }
 
 /// Two jaws 2 m apart go towards each other by 0.4 m each a step: between the second and the third they meet.

@@ -2,7 +2,7 @@
 
 use super::stroke_poses::figures;
 use crate::common::*;
-use ozols::rank::stroke::analysis::{StrokeRequest, analyse_stroke};
+use ozols::rank::stroke::analysis::StrokeRequest;
 
 /// A singular pose is found wherever the stroke ends: the parallelogram is flat at 90° to either side of the pose of the file.
 #[test]
@@ -118,13 +118,14 @@ fn drives_that_are_held_decide_too() {
         let request = StrokeRequest {
             mechanism: &m,
             state: StateId::FREE,
+            pose: pose.clone(),
             drive: drives[0],
-            held,
+            held: held.to_vec(),
             range: [0.0, 0.2],
             steps: 2,
             tolerance: None,
         };
-        analyse_stroke(&request, &pose).undriven
+        request.follow_stroke().undriven
     };
     assert_eq!([undriven(&drives[1..]), undriven(&[])], [0, 1]);
 }

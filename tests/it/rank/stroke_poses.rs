@@ -3,7 +3,7 @@
 use crate::common::*;
 use crate::statics::{joints_of, planar_file};
 use ozols::motion::follow::{Why, stroke_positions};
-use ozols::rank::stroke::analysis::{StrokeFigures, StrokeRequest, analyse_stroke};
+use ozols::rank::stroke::analysis::{StrokeFigures, StrokeRequest};
 use std::f64::consts::FRAC_PI_2;
 
 /// Columns of the file's drives in the free state.
@@ -19,13 +19,14 @@ pub(super) fn figures(m: &Mechanism, range: [f64; 2], steps: usize) -> StrokeFig
     let request = StrokeRequest {
         mechanism: m,
         state: StateId::FREE,
+        pose,
         drive: drives[0],
-        held: &drives[1..],
+        held: drives[1..].to_vec(),
         range,
         steps,
         tolerance: None,
     };
-    analyse_stroke(&request, &pose)
+    request.follow_stroke()
 }
 
 fn followed(m: &Mechanism, range: [f64; 2], steps: usize) -> (Pose, Vec<Follower>) {

@@ -7,7 +7,6 @@ use crate::common::*;
 fn the_command_changes_the_order_and_says_why() {
     let v = run_json("search gripper-10-loaded --format json");
     let ranking = &v["ranking"];
-    assert_eq!(ranking["order"], "weighted");
     assert_eq!(ranking["pool"], 20_000);
     // Of the 25.7 million the few that could win are scored, too, and there are no better ones.
     assert_eq!(ranking["proven"], true, "{ranking}");
@@ -41,7 +40,7 @@ fn bad_rankings_are_refused_with_line_item_and_remedy() {
         term = "cost" | term = "price" | unknown term "price" & peak-force
         weight = 0.2 | weight = nan | weight NaN & from 0 to 1e12
         weight = 0.2 | weight = -1 | weight -1
-        order = "weighted" | order = "best" | unknown order "best" & lexicographic
+        [ranking] | [ranking]\norder = "best" | unknown order "best" & weighted
         min = 1e-4 | min = inf | limit inf
         mass = 0.25 | mass = -0.25 | mass -0.25 & from 0 to 1e12
         # more | [joint_types.spherical]\ncapacity_force = 0 | capacity 0 & above 0

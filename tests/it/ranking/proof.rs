@@ -104,7 +104,6 @@ fn what_is_proven_is_the_best_of_all_scored() {
             max: None,
         };
         let ranking = Ranking {
-            order: Order::Weighted,
             terms: terms.to_vec(),
             limits: [limit].into_iter().take(round % 3).collect(),
             ..Ranking::default()
@@ -113,7 +112,7 @@ fn what_is_proven_is_the_best_of_all_scored() {
         let found = ranked(&m, &ranking, 1 + round % 2);
         let found = found.ranking.unwrap();
         assert!(!found.interrupted);
-        let list = found.list.iter().map(|r| (r.by_cost, r.total.unwrap()));
+        let list = found.list.iter().map(|r| (r.by_cost, r.total));
         let list: Vec<(usize, f64)> = list.collect();
         if found.proven {
             proven += 1;
@@ -146,12 +145,11 @@ fn dear_variants_that_bear_best_are_found() {
         ],
     ] {
         let ranking = Ranking {
-            order: Order::Weighted,
             terms: terms.to_vec(),
             ..Ranking::default()
         };
         let found = ranked(&m, &ranking, 2).ranking.unwrap();
-        let list = found.list.iter().map(|r| (r.by_cost, r.total.unwrap()));
+        let list = found.list.iter().map(|r| (r.by_cost, r.total));
         let list: Vec<(usize, f64)> = list.collect();
         if found.proven {
             assert_eq!(list, best(&scores, &ranking), "{terms:?}");
@@ -166,8 +164,7 @@ fn dear_variants_that_bear_best_are_found() {
 fn the_same_for_any_number_of_threads() {
     let m = loaded();
     let terms = [(Term::PeakForce, 10.0), (Term::OutputError, 5.0)];
-    let ranking =
-        default_with(|r: &mut Ranking| (r.order, r.terms) = (Order::Weighted, terms.to_vec()));
+    let ranking = default_with(|r: &mut Ranking| r.terms = terms.to_vec());
     let found = [1, 2, 3].map(|threads| ranked(&m, &ranking, threads).ranking.unwrap());
     assert!(found[0].proven && found[0].elsewhere.is_some());
     let places: HashMap<usize, usize> = found[0].list.iter().map(|r| (r.by_cost, 1)).collect();

@@ -5,7 +5,7 @@ use crate::common::*;
 use ozols::score::outcome::ranking::RankedPool;
 
 fn pool() -> RankedPool {
-    let all = ranking(Order::Weighted, &TERMS);
+    let all = ranking(&TERMS);
     ranked(&loaded(), &all, 400, 400)
 }
 
@@ -53,7 +53,7 @@ fn limits_are_at_least_and_at_most() {
     let scores = pool().list[0].scores;
     let force = scores.force.utilisation;
     let within = |min: Option<f64>, max: Option<f64>| {
-        let mut r = ranking(Order::Weighted, &TERMS);
+        let mut r = ranking(&TERMS);
         let term = Term::PeakForce;
         r.limits = vec![Limit { term, min, max }];
         scores.within_limits(&r)

@@ -5,15 +5,14 @@ use crate::common::*;
 mod random;
 mod twin;
 
+use ozols::closure::drive::Driven;
 use ozols::model::loads::Loads;
 use ozols::redundancy::stress::exact_self_stresses;
-use ozols::statics::reactions::drives::Driven;
 use random::{Random, five_bar, train, with_loads};
 use twin::Twin;
 
 fn drives(m: &Mechanism) -> Vec<Driven> {
-    let pose = Pose::of_file(m, StateId::FREE).unwrap();
-    driven_freedoms(m, &Geometry::new(m, StateId::FREE, &pose).unwrap()).unwrap()
+    driven_freedoms(m, StateId::FREE)
 }
 
 fn solve(m: &Mechanism) -> Solution {

@@ -9,8 +9,7 @@ fn gripper(drive: &str) -> String {
 }
 
 fn held(m: &Mechanism, state: StateId) -> Vec<Freedom> {
-    let pose = Pose::of_file(m, state).unwrap();
-    let drives = driven_freedoms(m, &Geometry::new(m, state, &pose).unwrap()).unwrap();
+    let drives = driven_freedoms(m, state);
     drives.into_iter().map(|(_, f)| f).collect()
 }
 

@@ -1,5 +1,6 @@
 //! The scores of variants, fast.
 
+use crate::closure::drive::{Driven, driven_freedoms};
 use crate::geom::exact::ExactError;
 use crate::geom::vector::dot;
 use crate::model::mechanism::{JointId, LinkId, StateId};
@@ -14,9 +15,6 @@ use crate::score::joint_types::JointTypes;
 use crate::search::Search;
 use crate::search::answer::k_best::Assignment;
 use crate::statics::reactions::Unsolved;
-use crate::statics::reactions::cycle::follow_stroke;
-use crate::statics::reactions::drives::{Driven, driven_freedoms};
-use crate::statics::reactions::geometry::Geometry;
 use std::sync::OnceLock;
 use thiserror::Error;
 
@@ -92,14 +90,7 @@ impl<'s> Evaluator<'s> {
     ) -> Result<Evaluator<'s>, ScoreError> {
         let m = &*search.mechanism;
         let types = JointTypes::of(m);
-        let start = follow_stroke(m, StateId::FREE, &[], None)?;
-        let drives = match start.poses.first() {
-            Some((_, pose)) => driven_freedoms(
-                m,
-                &Geometry::new(m, StateId::FREE, pose).map_err(Unsolved::from)?,
-            )?,
-            None => Vec::new(),
-        };
+        let drives = driven_freedoms(m, StateId::FREE);
         let cases = list_cases(m, &drives, states)?;
         let outputs = output_points(m, &cases);
         let tables = cases

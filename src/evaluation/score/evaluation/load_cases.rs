@@ -4,13 +4,13 @@
 //! under the file's loads. In a state that the grip loads, they are the pose for each part it holds, under the contact
 //! forces of that part's worst case. The score is the worst over the cases of the states that count.
 
+use crate::closure::drive::Driven;
 use crate::grip::jaw_loads::{Gripping, JawError, grip_of};
 use crate::model::loads::Loads;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::cycle::{follow_stroke, follow_to};
-use crate::statics::reactions::drives::Driven;
 use itertools::Itertools;
 use thiserror::Error;
 

@@ -1,5 +1,6 @@
 //! Everything about a search that does not depend on the variant, in numbers, pose by pose.
 
+use crate::closure::drive::Driven;
 use crate::closure::twist::unit_twist;
 use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::geom::Reals;
@@ -14,11 +15,11 @@ use crate::score::joint_types::JointTypes;
 use crate::search::Search;
 use crate::search::question::space::Choice;
 use crate::statics::reactions::Unsolved;
-use crate::statics::reactions::drives::{Driven, range_period};
 use crate::statics::reactions::geometry::{
     FreedomColumn, Geometry, Six, force_wrench, shift_wrench, wrench_power,
 };
 use crate::statics::reactions::loads::link_loads;
+use crate::statics::reactions::loads::range_period;
 
 /// The joints that a choice puts at one place.
 #[derive(Debug, Clone)]

@@ -129,16 +129,9 @@ impl Evaluator<'_> {
     /// Returns for each joint of the realized variant the original joint and the type that bears its load.
     fn realized_types(&self, choices: &[usize]) -> Vec<(JointId, JointType)> {
         let m = &self.search.mechanism;
-        let mut chosen = vec![(0, None); m.joints.len()];
-        for (variable, &choice) in self.search.space.variables.iter().zip(choices) {
-            if let Some(c) = variable.choices.get(choice) {
-                for &j in &variable.joints {
-                    chosen[j] = (c.option, c.unloading);
-                }
-            }
-        }
+        let chosen = variant_mechanism::chosen_options(self.search, choices);
         let (mut here, mut inserted) = (Vec::new(), Vec::new());
-        for (j, (option, unloading)) in m.joint_ids().zip(chosen) {
+        for (j, (option, unloading, _)) in m.joint_ids().zip(chosen) {
             let joint = &m.joints[j];
             let bears = |o: Option<&crate::model::mechanism::JointOption>| {
                 let nothing = JointType {

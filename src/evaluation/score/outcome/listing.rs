@@ -8,7 +8,6 @@ use crate::score::run::ShouldCancel;
 use crate::search::answer::ideas;
 use crate::search::answer::ideas::Idea;
 use crate::search::answer::k_best::Assignment;
-use crate::search::at_tolerance::AtTolerance;
 use crate::search::check::other_poses::Stroke;
 use crate::search::check::singular_values;
 use crate::search::check::singular_values::{Certified, Summary};
@@ -107,10 +106,6 @@ impl Outcome {
         seed: u64,
         cancelled: ShouldCancel<'o>,
     ) -> Variants<'o> {
-        let ListSource { variants, ideas } = match &self.numeric {
-            Some(found) => self.by_values(found, list, distinct, seed),
-            None => self.by_diagrams(list, distinct, seed),
-        };
         // What is proven is a list of all variants; of ideas a diagram cut down may lack the first ones.
         let by_cost = match list {
             _ if self.numeric.is_some() => false,
@@ -126,11 +121,10 @@ impl Outcome {
             outcome: self,
             list,
             cancelled,
-            source: variants,
+            source: self.listed(list, distinct, seed),
             opinions: self.request.check == Check::Full,
             stroke: self.stroke.as_ref(),
             ready: Vec::new().into_iter(),
-            ideas,
             distinct,
             room: longest_list(list),
             summary,
@@ -139,64 +133,62 @@ impl Outcome {
         }
     }
 
-    /// Returns a list of the variants that singular values found.
-    fn by_values<'o>(
-        &'o self,
-        found: &'o AtTolerance,
+    /// Returns what a list has, from the diagrams or by singular values.
+    fn listed(
+        &self,
         list: List,
         distinct: bool,
         seed: u64,
-    ) -> ListSource<'o> {
-        let unranked = |v: Assignment| (v, None);
-        let sure = found.list_variants();
-        match list {
-            List::Nothing => ListSource::of_variants(std::iter::empty()),
-            List::Top(k) if distinct => {
-                let ideas = ideas::ideas_among(&self.search, sure, k);
-                let places = vec![None; ideas.len()];
-                ListSource::of_ideas(ideas, places)
-            }
-            List::Top(_) | List::All => ListSource::of_variants(sure.map(unranked)),
-            List::Sample(n) => {
-                let drawn = found.draw_variants(seed);
-                ListSource::of_variants(drawn.take(n).map(unranked))
-            }
+    ) -> Box<dyn Iterator<Item = Listed> + '_> {
+        let plain = |variant| Listed {
+            variant,
+            place: None,
+            idea: None,
+        };
+        let of_idea = |place, idea: Idea| Listed {
+            variant: idea.first.clone(),
+            place,
+            idea: Some(idea),
+        };
+        let search = &self.search;
+        if let Some(found) = &self.numeric {
+            let sure = found.list_variants();
+            return match list {
+                List::Nothing => Box::new(std::iter::empty()),
+                List::Top(k) if distinct => {
+                    let ideas = ideas::ideas_among(search, sure, k).into_iter();
+                    Box::new(ideas.map(move |idea| of_idea(None, idea)))
+                }
+                List::Top(_) | List::All => Box::new(sure.map(plain)),
+                List::Sample(n) => Box::new(found.draw_variants(seed).take(n).map(plain)),
+            };
         }
-    }
-
-    /// Returns a list from the diagrams, empty if there are none.
-    fn by_diagrams(&self, list: List, distinct: bool, seed: u64) -> ListSource<'_> {
-        let unranked = |v: Assignment| (v, None);
         let Some(d) = &self.diagrams else {
-            return ListSource::of_variants(std::iter::empty());
+            return Box::new(std::iter::empty());
         };
         match (list, &self.ranking) {
-            (List::Nothing, _) => ListSource::of_variants(std::iter::empty()),
+            (List::Nothing, _) => Box::new(std::iter::empty()),
             (List::Top(k), Some(ranked)) if distinct => {
                 let list = ranked.list.iter().map(|r| &r.variant);
-                let first = ideas::first_of_each(&self.search, list, d).into_iter();
-                let first = first.map(|(at, idea)| (Some(at), idea)).take(k);
-                let (places, ideas) = first.unzip();
-                ListSource::of_ideas(ideas, places)
+                let first = ideas::first_of_each(search, list, d).into_iter().take(k);
+                Box::new(first.map(move |(at, idea)| of_idea(Some(at), idea)))
             }
             (List::Top(k), None) if distinct => {
-                let ideas = self.search.list_ideas(d, k);
-                let places = vec![None; ideas.len()];
-                ListSource::of_ideas(ideas, places)
+                let ideas = search.list_ideas(d, k).into_iter();
+                Box::new(ideas.map(move |idea| of_idea(None, idea)))
             }
-            (List::Sample(n), _) => {
-                let drawn = self.search.sample_variants(d, seed);
-                ListSource::of_variants(drawn.take(n).map(unranked))
-            }
+            (List::Sample(n), _) => Box::new(search.sample_variants(d, seed).take(n).map(plain)),
             (List::Top(_), Some(ranked)) => {
                 let list = ranked.list.iter().enumerate();
-                ListSource::of_variants(list.map(|(place, r)| (r.variant.clone(), Some(place))))
+                Box::new(list.map(move |(place, r)| Listed {
+                    place: Some(place),
+                    ..plain(r.variant.clone())
+                }))
             }
-            (List::Top(_) | List::All, _) => ListSource::of_variants(
-                self.search
-                    .cheapest_variants(d, longest_list(list))
-                    .map(unranked),
-            ),
+            (List::Top(_) | List::All, _) => {
+                let cheapest = search.cheapest_variants(d, longest_list(list));
+                Box::new(cheapest.map(plain))
+            }
         }
     }
 }
@@ -210,32 +202,13 @@ fn longest_list(list: List) -> usize {
     }
 }
 
-/// The source of a list.
-struct ListSource<'o> {
-    /// Variants, with their places in the ranking if there is one.
-    variants: Box<dyn Iterator<Item = (Assignment, Option<usize>)> + 'o>,
-    /// The idea of each, if only the first variant of each idea is listed.
-    ideas: Vec<Idea>,
-}
-
-impl<'o> ListSource<'o> {
-    fn of_variants(
-        variants: impl Iterator<Item = (Assignment, Option<usize>)> + 'o,
-    ) -> ListSource<'o> {
-        ListSource {
-            variants: Box::new(variants),
-            ideas: Vec::new(),
-        }
-    }
-
-    /// Returns the source of a list of ideas, each as its first variant, with their places.
-    fn of_ideas(ideas: Vec<Idea>, places: Vec<Option<usize>>) -> ListSource<'o> {
-        let firsts = ideas.iter().map(|i| i.first.clone()).collect_vec();
-        ListSource {
-            variants: Box::new(firsts.into_iter().zip(places)),
-            ideas,
-        }
-    }
+/// An entry of a list.
+struct Listed {
+    variant: Assignment,
+    /// Its place in the ranking, if there is one.
+    place: Option<usize>,
+    /// Its idea, if only the first variant of each idea is listed.
+    idea: Option<Idea>,
 }
 
 /// The variants of an outcome, one by one.
@@ -243,16 +216,13 @@ pub struct Variants<'o> {
     outcome: &'o Outcome,
     list: List,
     cancelled: ShouldCancel<'o>,
-    /// Variants, with their places in the ranking if there is one.
-    source: Box<dyn Iterator<Item = (Assignment, Option<usize>)> + 'o>,
+    source: Box<dyn Iterator<Item = Listed> + 'o>,
     /// Whether second opinions are wanted of those to come.
     opinions: bool,
     /// The poses in which the next ones are examined.
     stroke: Option<&'o Stroke>,
     /// Examined, and not given yet.
-    ready: std::vec::IntoIter<(Certified, Option<usize>)>,
-    /// The idea of each, if only the first variant of each idea is listed.
-    ideas: Vec<Idea>,
+    ready: std::vec::IntoIter<(Certified, Option<usize>, Option<Idea>)>,
     distinct: bool,
     /// How many more may be given.
     room: usize,
@@ -310,23 +280,23 @@ impl Variants<'_> {
         counted && !self.distinct && due > given.into()
     }
 
-    /// Returns the idea of a variant, if only the first variant of each idea is listed.
-    fn idea_of(&self, of: &Certified) -> Option<Idea> {
-        self.ideas.iter().find(|i| i.first == of.variant).cloned()
-    }
-
     /// Returns the next variant with its opinions. Variants are collected first, so that they are analysed in parallel.
-    fn next_certified(&mut self) -> Option<(Certified, Option<usize>)> {
+    fn next_certified(&mut self) -> Option<(Certified, Option<usize>, Option<Idea>)> {
         if let Some(next) = self.ready.next() {
             return Some(next);
         }
         if !self.opinions && self.stroke.is_none() {
-            let (variant, place) = self.source.next()?;
-            return Some((Certified::without_opinion(variant), place));
+            let next = self.source.next()?;
+            return Some((
+                Certified::without_opinion(next.variant),
+                next.place,
+                next.idea,
+            ));
         }
         let search = &self.outcome.search;
         let size = singular_values::affordable_count(search);
-        let (block, places): (Vec<_>, Vec<_>) = self.source.by_ref().take(size).unzip();
+        let block = self.source.by_ref().take(size);
+        let (block, more): (Vec<_>, Vec<_>) = block.map(|l| (l.variant, (l.place, l.idea))).unzip();
         let certified = singular_values::certify_variants(
             search,
             block,
@@ -334,7 +304,9 @@ impl Variants<'_> {
             self.stroke,
             self.cancelled,
         );
-        self.ready = certified.into_iter().zip(places).collect_vec().into_iter();
+        let ready = certified.into_iter().zip(more);
+        let ready = ready.map(|(certified, (place, idea))| (certified, place, idea));
+        self.ready = ready.collect_vec().into_iter();
         (self.opinions, self.stroke) = (false, None);
         self.ready.next()
     }
@@ -349,7 +321,7 @@ impl<'o> Iterator for Variants<'o> {
                 self.interrupted = true;
                 return None;
             }
-            let Some((certified, place)) = self.next_certified() else {
+            let Some((certified, place, idea)) = self.next_certified() else {
                 self.interrupted = (self.cancelled)();
                 self.short = self.is_short();
                 return None;
@@ -372,7 +344,7 @@ impl<'o> Iterator for Variants<'o> {
             return Some(Variant {
                 outcome: self.outcome,
                 position: self.summary.given,
-                idea: self.idea_of(&certified),
+                idea,
                 certified,
                 place,
             });

@@ -4,7 +4,7 @@
 //! cost, counts, and the reactions as far as they are determined. All other variants are scored. Some branches at a time are
 //! searched, each with the list from before them, so that the result does not depend on the order of threads.
 
-use crate::model::ranking::{Order, Ranking, Term};
+use crate::model::ranking::{Ranking, Term};
 use crate::score::evaluation::beginnings::{Beginnings, Begun, TakenChoice};
 use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::Evaluator;
@@ -99,8 +99,7 @@ pub(in crate::score) fn prove_best(
     progress: &mut dyn FnMut(usize, usize),
 ) {
     let (search, ranking) = (evaluator.search, pool.ranking.clone());
-    let weighted = ranking.order == Order::Weighted;
-    let best = pool.list.first().filter(|_| weighted);
+    let best = pool.list.first();
     let begins = best.and_then(|b| evaluator.beginnings_of(&b.variant, &ranking));
     let places = Places::new(search, diagram, search.conditions.memory / 4);
     let (Some(begins), Some(places)) = (begins, places) else {
@@ -160,14 +159,11 @@ impl<'w> BranchAndBound<'w> {
                 scored += walker.scored;
                 work += walker.work;
                 ended = ended.or(walker.ended);
-                let new = |r: &Ranked| {
-                    list.binary_search_by(|l| compare_ranked(self.ranking, l, r))
-                        .is_err()
-                };
+                let new = |r: &Ranked| list.binary_search_by(|l| compare_ranked(l, r)).is_err();
                 others.extend(walker.list.into_iter().filter(new));
             }
             list.extend(others);
-            list.sort_by(|a, b| compare_ranked(self.ranking, a, b));
+            list.sort_by(compare_ranked);
             list.truncate(self.top);
             let done = ((n + 1) * BRANCHES).min(all.len());
             ended = ended.or_else(|| too_long(work, done, all.len()).then_some(Ended::TooLong));
@@ -373,12 +369,11 @@ impl Walker<'_> {
             by_cost,
             variant,
             scores,
-            total: Some(total),
-            front: None,
+            total,
         };
         let at = self
             .list
-            .partition_point(|r| compare_ranked(walk.ranking, r, &ranked).is_lt());
+            .partition_point(|r| compare_ranked(r, &ranked).is_lt());
         self.list.insert(at, ranked);
         self.list.truncate(walk.top);
         self.update_allowed();

@@ -2,12 +2,11 @@
 
 use crate::format::three_digits;
 use crate::model::mechanism::{JointId, Mechanism};
-use crate::model::ranking::{Order, Ranking, Term};
+use crate::model::ranking::{Ranking, Term};
 use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::load_cases::Gripped;
 use crate::score::evaluation::terms::Scores;
-use crate::score::outcome::pareto::fronts;
 use crate::search::answer::k_best::Assignment;
 use crate::statics::reactions::Unsolved;
 use num_bigint::BigUint;
@@ -27,10 +26,8 @@ pub struct Ranked {
     pub by_cost: usize,
     /// Its scores.
     pub scores: Scores,
-    /// The weighted sum, where that is the order.
-    pub total: Option<f64>,
-    /// Its front from 1, where the order is Pareto's.
-    pub front: Option<usize>,
+    /// The weighted sum.
+    pub total: f64,
 }
 
 /// A ranked pool.
@@ -90,52 +87,10 @@ impl Missing {
     }
 }
 
-/// Compares two variants by rank. The cheaper one comes first if the order does not decide.
-pub fn compare_ranked(ranking: &Ranking, a: &Ranked, b: &Ranked) -> Ordering {
-    let by_order = match ranking.order {
-        Order::Weighted => a
-            .scores
-            .weighted_sum(ranking)
-            .total_cmp(&b.scores.weighted_sum(ranking)),
-        Order::Lexicographic => ranking
-            .terms
-            .iter()
-            .map(|(t, _)| a.scores.term_loss(*t).total_cmp(&b.scores.term_loss(*t)))
-            .find(|o| o.is_ne())
-            .unwrap_or(Ordering::Equal),
-        Order::Pareto => a
-            .front
-            .unwrap_or(usize::MAX)
-            .cmp(&b.front.unwrap_or(usize::MAX)),
-    };
-    by_order.then(a.by_cost.cmp(&b.by_cost))
-}
-
-/// Returns the proof that no variant of at least this cost, with the other terms at least `floor`, can precede the last of
-/// `list`. `None` if one could.
-fn settling_proof(
-    ranking: &Ranking,
-    list: &[Ranked],
-    least_milli: i64,
-    floor: f64,
-) -> Option<&'static str> {
-    let last = list.last()?;
-    let least = least_milli as f64 / 1000.0;
-    match ranking.order {
-        Order::Weighted => {
-            let weight = ranking.terms.iter().find(|(t, _)| *t == Term::Cost)?.1;
-            let behind = weight * least + floor >= last.scores.weighted_sum(ranking);
-            (weight > 0.0 && behind).then_some(
-                "cost puts every later variant behind, with the least the other terms can be",
-            )
-        }
-        Order::Lexicographic => {
-            let (first, _) = ranking.terms.first()?;
-            (*first == Term::Cost && least > last.scores.term_value(Term::Cost))
-                .then_some("cost comes first and every later variant costs more")
-        }
-        Order::Pareto => None,
-    }
+/// Compares two variants by rank. The cheaper one comes first if their sums are equal.
+pub fn compare_ranked(a: &Ranked, b: &Ranked) -> Ordering {
+    let by_sum = a.total.total_cmp(&b.total);
+    by_sum.then(a.by_cost.cmp(&b.by_cost))
 }
 
 /// Computes the scores of a pool in parallel, in its order. They are the same for any number of threads.
@@ -147,8 +102,7 @@ fn score_all(evaluator: &Evaluator<'_>, pool: &[Assignment]) -> Vec<Result<Score
         .collect()
 }
 
-/// Ranks variants given one by one in order of cost, and keeps the best: no more of them are held than a block, and in
-/// Pareto's order all.
+/// Ranks variants given one by one in order of cost, and keeps the best: no more of them are held than a block.
 #[derive(Debug)]
 pub struct Ranker<'e, 's> {
     evaluator: &'e Evaluator<'s>,
@@ -165,13 +119,9 @@ pub struct Ranker<'e, 's> {
 impl<'e, 's> Ranker<'e, 's> {
     /// Creates the ranking of a pool of at most `limit` variants, of which the best `top` are wanted.
     pub fn new(evaluator: &'e Evaluator<'s>, ranking: &Ranking, limit: usize, top: usize) -> Self {
-        let floor = match ranking.order {
-            Order::Weighted => evaluator.least_terms().weighted_sum(ranking),
-            Order::Lexicographic | Order::Pareto => 0.0,
-        };
         Ranker {
             evaluator,
-            floor,
+            floor: evaluator.least_terms().weighted_sum(ranking),
             reached: 0,
             top,
             block: Vec::new(),
@@ -227,8 +177,7 @@ impl<'e, 's> Ranker<'e, 's> {
                 variant: variant.clone(),
                 by_cost: self.out.scored,
                 scores,
-                total: (ranking.order == Order::Weighted).then(|| scores.weighted_sum(ranking)),
-                front: None,
+                total: scores.weighted_sum(ranking),
             };
             if self.out.cheapest.is_none() {
                 self.out.cheapest = Some(ranked.clone());
@@ -239,39 +188,43 @@ impl<'e, 's> Ranker<'e, 's> {
                 self.out.limited += 1;
             }
         }
-        if ranking.order == Order::Pareto {
-            return;
-        }
         let top = self.top.max(1);
-        self.kept.sort_by(|a, b| compare_ranked(ranking, a, b));
+        self.kept.sort_by(compare_ranked);
         if let Some(last) = block.last() {
             self.reached = self.evaluator.search.steps.cost_in_milli(last.key.cost());
         }
-        if self.kept.len() >= top
-            && let Some(proof) =
-                settling_proof(ranking, &self.kept[..top], self.reached, self.floor)
+        let least = self.least_later();
+        let last = self.kept.get(top - 1);
+        if least
+            .zip(last)
+            .is_some_and(|(least, last)| least >= last.total)
         {
+            let proof =
+                "cost puts every later variant behind, with the least the other terms can be";
             (self.out.proven, self.out.proof) = (true, proof);
         }
         // What is behind the best so far stays behind.
         self.kept.truncate(top);
     }
 
+    /// Returns the weight of cost; `None` if cost does not count.
+    fn cost_weight(&self) -> Option<f64> {
+        let mut terms = self.out.ranking.terms.iter();
+        let weight = terms.find(|(t, _)| *t == Term::Cost)?.1;
+        (weight > 0.0).then_some(weight)
+    }
+
+    /// Returns the least sum of every variant that was not scored; `None` if cost does not count.
+    fn least_later(&self) -> Option<f64> {
+        Some(self.cost_weight()? * (self.reached as f64 / 1000.0) + self.floor)
+    }
+
     /// Returns the gap to a proof.
     fn missing_to_proof(&self) -> Option<Missing> {
-        let ranking = &self.out.ranking;
-        let weight = ranking.terms.iter().find(|(t, _)| *t == Term::Cost)?.1;
-        let last = self.kept.get(self.top.max(1) - 1)?;
-        if ranking.order != Order::Weighted || weight <= 0.0 {
-            return None;
-        }
-        let last = last.scores.weighted_sum(ranking);
-        let (reached, settled_at) = (
-            self.reached as f64 / 1000.0,
-            (1000.0 * (last - self.floor) / weight).ceil() as i64,
-        );
+        let last = self.kept.get(self.top.max(1) - 1)?.total;
+        let settled_at = (1000.0 * (last - self.floor) / self.cost_weight()?).ceil() as i64;
         Some(Missing {
-            least: weight * reached + self.floor,
+            least: self.least_later()?,
             last,
             settled_at,
             cheaper: None,
@@ -281,7 +234,7 @@ impl<'e, 's> Ranker<'e, 's> {
     /// Returns the ranked pool. `all` means that every admissible variant was given.
     ///
     /// # Complexity
-    /// One scoring a variant, in parallel, and a sort a block; for Pareto's order O(pool · front).
+    /// One scoring a variant, in parallel, and a sort a block.
     pub fn finish_pool(mut self, all: bool) -> RankedPool {
         if !self.block.is_empty() {
             self.score_block();
@@ -291,18 +244,6 @@ impl<'e, 's> Ranker<'e, 's> {
         }
         if !self.out.proven {
             self.out.missing = self.missing_to_proof();
-        }
-        let ranking = &self.out.ranking;
-        if ranking.order == Order::Pareto {
-            let point = |r: &Ranked| -> Vec<f64> {
-                let terms = ranking.terms.iter();
-                terms.map(|(t, _)| r.scores.term_loss(*t)).collect()
-            };
-            let points: Vec<Vec<f64>> = self.kept.iter().map(point).collect();
-            for (r, front) in self.kept.iter_mut().zip(fronts(&points, self.top)) {
-                r.front = front.map(|f| f + 1);
-            }
-            self.kept.sort_by(|a, b| compare_ranked(ranking, a, b));
         }
         self.kept.truncate(self.top);
         self.out.list = self.kept;
@@ -366,28 +307,11 @@ impl RankedPool {
         if here.by_cost == rank || here.by_cost == cheapest.by_cost {
             return None;
         }
-        let gain = |(t, w): &(Term, f64)| {
-            let weight = if self.ranking.order == Order::Weighted {
-                *w
-            } else {
-                1.0
-            };
-            let (from, to) = (cheapest.scores.term_loss(*t), here.scores.term_loss(*t));
-            match self.ranking.order {
-                Order::Weighted => weight * (from - to),
-                _ => (from - to) / from.abs().max(to.abs()).max(1e-300),
-            }
+        let gain = |(t, weight): &(Term, f64)| {
+            weight * (cheapest.scores.term_loss(*t) - here.scores.term_loss(*t))
         };
-        let better = |tw: &&(Term, f64)| gain(tw) > 0.0;
-        let term = match self.ranking.order {
-            Order::Lexicographic => self.ranking.terms.iter().find(better),
-            _ => self
-                .ranking
-                .terms
-                .iter()
-                .filter(better)
-                .max_by(|a, b| gain(a).total_cmp(&gain(b))),
-        }?;
+        let terms = self.ranking.terms.iter().filter(|tw| gain(tw) > 0.0);
+        let term = terms.max_by(|a, b| gain(a).total_cmp(&gain(b)))?;
         Some(format!(
             "rank {rank} was {} by cost: {}",
             ordinal(here.by_cost),

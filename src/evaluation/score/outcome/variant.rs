@@ -270,17 +270,9 @@ fn capitalize(name: &str) -> String {
 /// what that joint does now, its costs and mirror images, under the same names.
 fn offer_again(search: &Search, assignment: &Assignment, out: &mut Parts) {
     let old = &search.mechanism;
-    let mut chosen = vec![(0, None); old.joints.len()];
-    for (v, &choice) in search.space.variables.iter().zip(&assignment.choices) {
-        let Some(c) = v.choices.get(choice) else {
-            continue;
-        };
-        for &j in &v.joints {
-            chosen[j] = (c.option, c.unloading);
-        }
-    }
+    let chosen = variant_mechanism::chosen_options(search, &assignment.choices);
     for (j, joint) in old.joints_with_ids() {
-        let (option, unloading) = chosen[j.index()];
+        let (option, unloading, _) = chosen[j.index()];
         let Some(present) = joint.options.get(option) else {
             continue;
         };

@@ -5,78 +5,29 @@ use crate::score::request::unlisted::{framed_types, named_part};
 use crate::score::request::{Inserts, JointOptions, Request, RequestError};
 use itertools::Itertools;
 
-/// The names of the options that the joints of a mechanism have.
-struct KnownOptions<'m> {
-    mechanism: &'m Mechanism,
-    names: Vec<&'m str>,
+/// Returns the joint of a name.
+fn joint_of(mechanism: &Mechanism, name: &str) -> Result<JointId, RequestError> {
+    let joint = mechanism.joint_named(name);
+    joint.ok_or_else(|| RequestError::NoJoint {
+        mechanism: mechanism.name.clone(),
+        joint: name.to_owned(),
+    })
 }
 
-impl<'m> KnownOptions<'m> {
-    fn of(mechanism: &'m Mechanism) -> KnownOptions<'m> {
-        let offered = mechanism.joints.iter().flat_map(|j| &j.options);
-        let mut names: Vec<&str> = offered.map(|o| o.name.as_str()).collect();
-        names.sort_unstable();
-        names.dedup();
-        KnownOptions { mechanism, names }
-    }
-
-    /// Refuses names that no joint and no type or part has; a type that no joint is offered can be forbidden.
-    fn check_names(&self, names: &[String]) -> Result<(), RequestError> {
-        let unknown = |n: &&String| !self.names.contains(&n.as_str()) && named_part(n).is_none();
-        match names.iter().find(unknown) {
-            None => Ok(()),
-            Some(option) => Err(RequestError::NoOption {
-                mechanism: self.mechanism.name.clone(),
-                option: option.clone(),
-                known: (self.names.iter().map(|k| (*k).to_owned()))
-                    .chain(framed_types().map(|t| t.name().to_owned()))
-                    .unique()
-                    .collect(),
-            }),
-        }
-    }
-}
-
-/// Options that are allowed at a joint, or forbidden.
-struct OptionRule<'r> {
-    joint: JointId,
-    /// Empty means all changes.
-    names: &'r [String],
-    allow: bool,
-}
-
-impl<'r> OptionRule<'r> {
-    /// Reads the rules that allow options, or those that forbid them.
-    fn read_rules(
-        list: &'r [JointOptions],
-        allow: bool,
-        mechanism: &Mechanism,
-        known: &KnownOptions<'_>,
-    ) -> Result<Vec<OptionRule<'r>>, RequestError> {
-        let mut rules = Vec::with_capacity(list.len());
-        for JointOptions { joint: id, names } in list {
-            let joint = mechanism
-                .joint_named(id)
-                .ok_or_else(|| RequestError::NoJoint {
-                    mechanism: mechanism.name.clone(),
-                    joint: id.clone(),
-                })?;
-            if allow && names.is_empty() {
-                return Err(RequestError::NoNames { joint: id.clone() });
-            }
-            known.check_names(names)?;
-            rules.push(OptionRule {
-                joint,
-                names,
-                allow,
-            });
-        }
-        Ok(rules)
-    }
-
-    /// Returns true if the rules keep an option.
-    fn leaves_option(&self, name: &String) -> bool {
-        !self.names.is_empty() && self.names.contains(name) == self.allow
+/// Refuses names that no joint and no type or part has; a type that no joint is offered can be forbidden.
+fn check_names(mechanism: &Mechanism, names: &[String]) -> Result<(), RequestError> {
+    let offered = || mechanism.joints.iter().flat_map(|j| &j.options);
+    let unknown = |n: &&String| offered().all(|o| o.name != **n) && named_part(n).is_none();
+    match names.iter().find(unknown) {
+        None => Ok(()),
+        Some(option) => Err(RequestError::NoOption {
+            mechanism: mechanism.name.clone(),
+            option: option.clone(),
+            known: (offered().map(|o| o.name.clone()).sorted())
+                .chain(framed_types().map(|t| t.name().to_owned()))
+                .unique()
+                .collect(),
+        }),
     }
 }
 
@@ -97,17 +48,22 @@ impl Request {
                     })?,
             );
         }
-        let known = KnownOptions::of(mechanism);
         if !self.wants_any() {
-            known.check_names(&self.options)?;
+            check_names(mechanism, &self.options)?;
         }
-        let mut rules = OptionRule::read_rules(&self.allow, true, mechanism, &known)?;
-        rules.extend(OptionRule::read_rules(
-            &self.forbid,
-            false,
-            mechanism,
-            &known,
-        )?);
+        // The options that are allowed at a joint, or forbidden; no names mean all changes.
+        let mut rules = Vec::new();
+        for (list, is_allowed) in [(&self.allow, true), (&self.forbid, false)] {
+            for JointOptions { joint, names } in list {
+                let id = joint_of(mechanism, joint)?;
+                if is_allowed && names.is_empty() {
+                    let joint = joint.clone();
+                    return Err(RequestError::NoNames { joint });
+                }
+                check_names(mechanism, names)?;
+                rules.push((id, names, is_allowed));
+            }
+        }
         for &l in &held {
             let joints = mechanism.joint_ids();
             let joints = joints.filter(|&j| mechanism.joints[j].links.contains(&l));
@@ -117,9 +73,11 @@ impl Request {
         mechanism.edit().search.hold.extend(held);
         for (id, joint) in mechanism.joint_ids().zip(&mut mechanism.edit().joints) {
             let kept = |name: &String| {
-                let mut own = rules.iter().filter(|r| r.joint == id);
+                let mut own = rules.iter().filter(|r| r.0 == id);
                 (self.options.is_empty() || self.wants_any() || self.options.contains(name))
-                    && own.all(|r| r.leaves_option(name))
+                    && own.all(|(_, names, is_allowed)| {
+                        !names.is_empty() && names.contains(name) == *is_allowed
+                    })
             };
             let mut place = 0;
             joint.options.retain(|o| {
@@ -171,11 +129,7 @@ impl Request {
                 ([], Some(state)) => mechanism.joints_added_in(state).collect(),
                 (named, _) => {
                     let id = |joint: &String| {
-                        let id = mechanism.joint_named(joint);
-                        let id = id.ok_or_else(|| RequestError::NoJoint {
-                            mechanism: mechanism.name.clone(),
-                            joint: joint.clone(),
-                        })?;
+                        let id = joint_of(mechanism, joint)?;
                         let item = || format!("joint {joint}");
                         self.takes_part(mechanism, &[id], item)?;
                         Ok(id)

@@ -1,8 +1,8 @@
 //! Preparation of a mechanism for a search: the geometry that is meant, and notes about rounded coordinates.
 
-use crate::file::costs::costs_from_str;
 use crate::file::problem::ImportError;
 use crate::file::read::resolve::contains_option;
+use crate::file::read::search::costs_from_str;
 use crate::model::mechanism::{CostSpec, Joint, JointOption, Mechanism};
 use crate::model::rounded::Rounded;
 use crate::rank::numeric::DEFAULT_TOLERANCE;

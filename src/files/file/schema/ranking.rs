@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RankingEntry {
-    /// "weighted" (default), "lexicographic" or "pareto".
+    /// "weighted", the only order.
     pub order: Option<String>,
-    /// Terms, the most important first.
+    /// Terms, each with its weight in the sum by which variants are sorted.
     pub terms: Vec<TermEntry>,
     /// Limits that variants must meet.
     pub limits: Vec<LimitEntry>,

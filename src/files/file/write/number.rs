@@ -1,4 +1,4 @@
-//! Numbers that are written as they were read: those of the geometry, with their stated accuracy, and those in the units of a file.
+//! Numbers of the geometry, written as they were read, with their stated accuracy.
 
 use crate::file::prelude::*;
 use crate::geom::expr::{End, WrittenNumber, half_of};
@@ -89,36 +89,6 @@ fn with_zeros(value: &BigRational, written: WrittenNumber) -> Option<String> {
     Some(format!("{sign}{whole}.{fraction}"))
 }
 
-/// Returns the shortest decimal that times `unit` is `value`.
-fn shortest_number(value: f64, unit: f64) -> Option<f64> {
-    let near = value / unit;
-    // A product rounds, so a quotient may be off by a digit in the last place.
-    let digits = (0..17).filter_map(|n| format!("{near:.n$e}").parse::<f64>().ok());
-    let beside = [near, near.next_up(), near.next_down()];
-    // Equal to the last bit, or it is not the same number.
-    digits
-        .chain(beside)
-        .find(|x| (x * unit).to_bits() == value.to_bits())
-}
-
-/// Writes a value in SI units for a file whose unit is `unit` of it, so that it reads back as exactly the same number.
-pub(crate) fn write_number(value: f64, unit: f64) -> Coordinate {
-    plain_number(shortest_number(value, unit).unwrap_or(value / unit))
-}
-
-/// Writes three values in the same way.
-pub(crate) fn write_numbers(values: [f64; 3], unit: f64) -> [Coordinate; 3] {
-    values.map(|x| write_number(x, unit))
-}
-
-/// Writes an angle in degrees if that is exact, otherwise in radians.
-pub(crate) fn write_angle(radians: f64) -> Coordinate {
-    match shortest_number(radians, 1f64.to_radians()) {
-        Some(degrees) => plain_number(degrees),
-        None => Coordinate::Expression(format!("{radians}rad")),
-    }
-}
-
 /// Writes a number in its usual form.
 pub(crate) fn plain_number(x: f64) -> Coordinate {
     #[allow(clippy::cast_possible_truncation, reason = "whole and within 2^53")]
@@ -144,7 +114,7 @@ pub(super) fn file_tolerance(m: &Mechanism) -> Option<ToleranceEntry> {
     let direction = most_common_half(
         turned.map(|(of, e)| (e, stated_half(e).map(|half| round_digits(half / of)))),
     );
-    let entry = |x: Option<f64>| x.map(|x| write_number(x, 1.0));
+    let entry = |x: Option<f64>| x.map(plain_number);
     (lengths.is_some() || direction.is_some()).then(|| ToleranceEntry {
         length: entry(lengths),
         direction: entry(direction),
@@ -157,7 +127,7 @@ pub(super) fn point_tolerance(
     file: Option<&ToleranceEntry>,
 ) -> Option<Coordinate> {
     let halves = point.iter().filter_map(stated_half);
-    let half = write_number(halves.reduce(f64::max)?, 1.0);
+    let half = plain_number(halves.reduce(f64::max)?);
     let of_file = file.and_then(|t| t.length.as_ref());
     (of_file != Some(&half)).then_some(half)
 }
@@ -189,46 +159,4 @@ fn most_common_half<'e>(of: impl Iterator<Item = (&'e Expr, Option<f64>)>) -> Op
     }
     let most = count.iter().map(|c| c.1).max();
     count.iter().find(|c| Some(c.1) == most).map(|c| c.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    fn value(c: &Coordinate) -> f64 {
-        match c {
-            #[allow(clippy::cast_precision_loss, reason = "whole and within 2^53")]
-            Coordinate::Integer(x) => *x as f64,
-            Coordinate::Decimal(x) => *x,
-            Coordinate::Expression(t) => t.trim_end_matches("rad").parse().unwrap(),
-        }
-    }
-
-    #[test]
-    fn what_people_write_comes_back() {
-        for (x, unit) in [(40.0, 1e-3), (0.1, 1e-3), (23.09, 0.0254), (7.0, 1.0)] {
-            assert_eq!(value(&write_number(x * unit, unit)), x);
-        }
-        for x in [120.0, 30.5, 0.0, 33.3] {
-            assert_eq!(value(&write_angle(f64::to_radians(1.0) * x)), x);
-        }
-    }
-
-    proptest! {
-        #[test]
-        fn numbers_read_back_exactly(x in -1e6..1e6f64, unit in prop::sample::select(vec![1.0, 1e-2, 1e-3, 1e-6, 0.0254])) {
-            let value_si = x * unit;
-            prop_assert_eq!(value(&write_number(value_si, unit)) * unit, value_si);
-        }
-
-        #[test]
-        fn angles_read_back_exactly(x in 0.0..7.0f64) {
-            let read = match write_angle(x) {
-                Coordinate::Expression(t) => t.trim_end_matches("rad").parse::<f64>().unwrap(),
-                c => value(&c) * 1f64.to_radians(),
-            };
-            prop_assert_eq!(read, x);
-        }
-    }
 }

@@ -55,8 +55,7 @@ pub(crate) fn read_assembly(input: Input<'_>) -> Read<Robot> {
     for joint in within("Joints") {
         joint.check_room("joints", connections.len())?;
         if joint.name().contains(CONTACT) {
-            let name = joint.first_child("Name").map(|n| n.text());
-            robot.report.count_dropped("contact", name);
+            robot.report.drop_element("contact", &label_of(joint));
             continue;
         }
         connections.push(read_connection(joint, &markers)?);
@@ -65,8 +64,7 @@ pub(crate) fn read_assembly(input: Input<'_>) -> Read<Robot> {
         .into_iter()
         .flat_map(within)
     {
-        let name = e.first_child("Name").map(|n| n.text());
-        robot.report.count_dropped(e.name(), name);
+        robot.report.drop_element(e.name(), &label_of(e));
     }
     for limit in within("Limits") {
         robot.report.add_approximation(&label_of(limit), NO_LIMITS);

@@ -67,7 +67,7 @@ fn read_linked(
             Ok(bytes) => bytes,
             Err(why) => {
                 let what = format!("linked document that cannot be read ({why})");
-                robot.report.count_dropped(&what, Some(&file));
+                robot.report.drop_element(&what, &file);
                 continue;
             }
         };
@@ -75,7 +75,7 @@ fn read_linked(
         let member = archive.map(|a| a.read_member(DOCUMENT)).transpose()?;
         let Some(member) = member.flatten() else {
             let what = "linked document that is not a FreeCAD document";
-            robot.report.count_dropped(what, Some(&file));
+            robot.report.drop_element(what, &file);
             continue;
         };
         let name = format!("{file}/{DOCUMENT}");
@@ -155,7 +155,7 @@ fn choose_assembly<'a>(
             "another assembly of the document, which is not read; this is assembly \"{}\" (the option `assembly` selects another)",
             most.label()
         );
-        robot.report.count_dropped(&what, Some(other.label()));
+        robot.report.drop_element(&what, other.label());
     }
     Ok(most)
 }
@@ -272,9 +272,7 @@ impl<'a> Assembling<'a, '_> {
             let off = joint.is_true("Suppressed") == Some(true)
                 || joint.is_true("Activated") == Some(false);
             if off {
-                robot
-                    .report
-                    .count_dropped("suppressed joint", Some(joint.label()));
+                robot.report.drop_element("suppressed joint", joint.label());
                 continue;
             }
             let ends = ["Reference1", "Reference2"].map(|which| {
@@ -307,7 +305,7 @@ impl<'a> Assembling<'a, '_> {
             let label = self.documents.main().get(part).map_or(part, Object::label);
             let what =
                 format!("nothing that joints hold is grounded; {label} is taken as the ground");
-            robot.report.add_moved(what);
+            robot.report.moved.push(what);
         }
         grounded
     }

@@ -54,7 +54,6 @@ pub(crate) fn usable_couplings(robot: &mut Robot, written: &[usize]) -> Vec<Usab
                         );
                         robot.report.add_approximation(&coupling.element, what);
                     }
-                    robot.report.count_mapped("coupling");
                     out.push(Usable {
                         ends,
                         ratio,

@@ -210,8 +210,6 @@ fn add_closure(id: &str, ends: [End; 2], kind: JointType, robot: &mut Robot) -> 
     }
     let mut part = Part::new(id, links, ends.map(|e| e.1), kind);
     part.closes = true;
-    part.comment = Some("closes a loop".to_owned());
-    robot.report.count_mapped("loop closure");
     robot.joints.push(part);
     Ok(())
 }
@@ -254,8 +252,6 @@ fn retype_joints(of: &Value, robot: &mut Robot) -> Found<()> {
         joint.values = vec![0.0; new.freedoms().len()];
         (joint.joint_type, joint.axis, joint.second) = (new, first, second);
         (joint.limits, joint.zero) = (None, 0.0);
-        joint.comment = Some(format!("{kind} by the file of loop closures"));
-        robot.report.count_mapped("joint type");
     }
     Ok(())
 }
@@ -278,7 +274,7 @@ fn read_pairs(of: &Value, robot: &mut Robot) -> Found<()> {
     for name in read_list::<String>(of, "name_mot")? {
         match robot.joints.iter_mut().find(|j| j.id == name) {
             Some(j) => j.drive = true,
-            None => robot.report.count_dropped("motor of no joint", Some(&name)),
+            None => robot.report.drop_element("motor of no joint", &name),
         }
     }
     Ok(())

@@ -5,11 +5,12 @@ use crate::file::schema::{
     Coordinate, CouplingEntry, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry,
     SearchEntry,
 };
-use crate::file::write::{Comment, freedom_names, plain_number};
+use crate::file::write::{freedom_names, plain_number};
 use crate::robots::description::coupling::Usable;
 use crate::robots::description::kinematics::world_axes;
 use crate::robots::mechanism::series_of_single_joints::Names;
 use crate::robots::prelude::*;
+use crate::robots::warning::KINEMATICS;
 
 /// Longest name in a mechanism file, in characters.
 const LONGEST: usize = 64;
@@ -57,19 +58,15 @@ pub(crate) struct Content {
     pub(in crate::robots) couplings: Vec<Usable>,
 }
 
-/// Returns the entries of the file and the comments above them.
-pub(crate) fn make_file(robot: &Robot, source: &str, c: &Content) -> (MechanismFile, Vec<Comment>) {
-    let mut comments = Vec::new();
-    let (links, ids) = make_links(robot, c, &mut comments);
+/// Returns the entries of the file.
+pub(crate) fn make_file(robot: &Robot, source: &str, c: &Content) -> MechanismFile {
+    let (links, ids) = make_links(robot, c);
     let (mut names, mut joint_ids, mut joints) = (Names::default(), BTreeMap::new(), Vec::new());
     for &j in &c.joints {
         let id = fitting_name(&mut names, &robot.joints[j].id);
         joint_ids.insert(j, id.clone());
         // The rates of a coupled joint matter; its axis has length 1, so that they are exact.
         let coupled = c.couplings.iter().any(|u| u.ends.contains(&j));
-        if let Some(what) = &robot.joints[j].comment {
-            comments.push(Comment::new("joint", joints.len(), what));
-        }
         joints.push(make_joint(&robot.joints[j], c, id, coupled, &ids));
     }
     let coupling = |u: &Usable| CouplingEntry {
@@ -77,10 +74,8 @@ pub(crate) fn make_file(robot: &Robot, source: &str, c: &Content) -> (MechanismF
         ratio: clean_number(u.ratio),
         gear: u.gear,
     };
-    let what = "Joint types that a search may use instead; edit freely.";
-    comments.push(Comment::new("search", 0, what));
     let options = robot.options.iter().map(|t| t.name().to_owned());
-    let file = MechanismFile {
+    MechanismFile {
         name: one_line(&robot.name),
         description: describe_source(robot, source),
         length_unit: Some(robot.unit.to_owned()),
@@ -92,8 +87,7 @@ pub(crate) fn make_file(robot: &Robot, source: &str, c: &Content) -> (MechanismF
             ..SearchEntry::default()
         },
         ..MechanismFile::default()
-    };
-    (file, comments)
+    }
 }
 
 fn one_line(s: &str) -> String {
@@ -108,20 +102,12 @@ fn describe_source(robot: &Robot, source: &str) -> String {
         (_, 0) => " Some couplings of joints are omitted.",
         _ => " Some joints are omitted.",
     };
-    let left_behind = report.left_behind();
-    let left_behind = left_behind.map_or(String::new(), |t| format!(" {}", one_line(&t)));
     let source = one_line(source);
-    format!("Imported from {source}.{left_out}{left_behind}")
+    format!("Imported from {source}.{left_out} {KINEMATICS}")
 }
 
 /// Returns the links, the frame first, with the names of their bodies.
-fn make_links(robot: &Robot, c: &Content, comments: &mut Vec<Comment>) -> (Vec<LinkEntry>, Ids) {
-    let mut merged: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
-    for (l, &b) in c.bodies.iter().enumerate() {
-        if l != b {
-            merged.entry(b).or_default().push(&robot.links[l]);
-        }
-    }
+fn make_links(robot: &Robot, c: &Content) -> (Vec<LinkEntry>, Ids) {
     let ends = |&j: &usize| robot.joints[j].links.map(|l| c.bodies[l]);
     let used: BTreeSet<usize> = c.joints.iter().flat_map(ends).collect();
     let order = std::iter::once(c.frame).chain(used.into_iter().filter(|&b| b != c.frame));
@@ -130,10 +116,6 @@ fn make_links(robot: &Robot, c: &Content, comments: &mut Vec<Comment>) -> (Vec<L
         let id = fitting_name(&mut names, &robot.links[b]);
         let frame = (b == c.frame).then_some("frame");
         let role = frame.or(c.outputs.contains(&b).then_some("output"));
-        if let Some(with) = merged.get(&b) {
-            let text = format!("with {}, fixed to it", with.join(", "));
-            comments.push(Comment::new("link", links.len(), &text));
-        }
         ids.insert(b, id.clone());
         links.push(LinkEntry {
             id,

@@ -18,14 +18,13 @@ pub(crate) fn read_equalities(
             None => format!("{}-{}", e.name(), i + 1),
         };
         if look.attribute("active").is_some_and(|(_, v)| v == "false") {
-            robot.report.count_dropped("inactive equality", Some(&id));
+            robot.report.drop_element("inactive equality", &id);
             continue;
         }
         match e.name() {
             "connect" => {
                 let ends = read_ends(e, context, robot)?;
-                let part = robot.close_loop(e, &id, ends, JointType::Spherical, "connect")?;
-                part.comment = Some("closes a loop: <connect>".to_owned());
+                robot.close_loop(e, &id, ends, JointType::Spherical)?;
             }
             "weld" => {
                 let ends = read_ends(e, context, robot)?;
@@ -39,8 +38,7 @@ pub(crate) fn read_equalities(
                         ends = [(one, first.then(&second.inverse()).then(&at)), (two, at)];
                     }
                 }
-                let part = robot.close_loop(e, &id, ends, kind, "weld")?;
-                part.comment = Some("closes a loop: <weld>".to_owned());
+                robot.close_loop(e, &id, ends, kind)?;
             }
             "joint" => read_coupling(e, robot)?,
             "tendon" => read_tendons(e, root, robot)?,
@@ -117,12 +115,6 @@ fn read_coupling(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     };
     // Value of joint 1 less its reference, as a polynomial of that of joint 2 less its own.
     let [_, ratio, higher @ ..] = read_polynomial(e)?;
-    let how = if higher == [0.0; 3] {
-        format!("times {ratio}")
-    } else {
-        "by a polynomial".to_owned()
-    };
-    set_comment(a, &format!("coupled to {b} {how}"), robot);
     robot.couplings.push(Ratio {
         higher,
         ..Ratio::new([b, a], ratio, e)
@@ -140,8 +132,6 @@ fn hold_joint(e: Element<'_>, joint: &str, value: f64, robot: &mut Robot) {
     j.values = vec![value];
     j.sides[0] = j.sides[0].then(&joint_motion(j));
     (j.joint_type, j.values, j.limits) = (JointType::Fixed, Vec::new(), None);
-    j.comment = Some("held at a constant by an equality".to_owned());
-    robot.report.count_mapped("joint held at a constant");
 }
 
 /// Reads an equality of the lengths of tendons. The length of a `<fixed>` tendon is a sum of joint values, each times a
@@ -167,7 +157,6 @@ fn read_tendons(e: Element<'_>, root: Element<'_>, robot: &mut Robot) -> Read<()
     match all[..] {
         [(joint, c)] => hold_joint(e, joint, value / c, robot),
         [(a, c), (b, d)] if higher == [0.0; 3] => {
-            set_comment(b, &format!("coupled to {a} by a tendon"), robot);
             robot.couplings.push(Ratio::new([a, b], -c / d, e));
         }
         _ => {
@@ -201,12 +190,6 @@ fn tendon_length<'a>(e: Element<'a>, key: &str, root: Element<'a>) -> Read<Optio
         *out.entry(j.required_attribute("joint")?).or_insert(0.0) += c;
     }
     Ok(Some(out))
-}
-
-fn set_comment(joint: &str, what: &str, robot: &mut Robot) {
-    if let Some(j) = robot.joints.iter_mut().find(|j| j.id == joint) {
-        j.comment = Some(what.to_owned());
-    }
 }
 
 /// Returns the five coefficients of `polycoef`, lowest first; omitted ones have MuJoCo's defaults, 0 1 0 0 0.

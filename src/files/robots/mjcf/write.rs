@@ -1,8 +1,8 @@
 //! MJCF: a spanning tree of the free state as bodies; loops as `<connect>` and `<weld>`, other joints that close one as a
 //! small body on joints that is welded.
 
+use crate::closure::drive::driven_freedoms;
 use crate::closure::tree::spanning_tree;
-use crate::motion::pose::Pose;
 use crate::robots::description::physical::{GRAM, left_out, moving_inertial, write_head};
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
@@ -10,8 +10,6 @@ use crate::robots::mechanism::series_of_single_joints::{
     single_freedoms, write_attributes,
 };
 use crate::robots::prelude::*;
-use crate::statics::reactions::drives::driven_freedoms;
-use crate::statics::reactions::geometry::Geometry;
 
 /// Writes the mechanism's free state as MJCF; bodies have the global axes, and their origin at the joint that holds them.
 ///
@@ -239,9 +237,7 @@ impl MjcfWriter<'_> {
     /// Motors of the driven joints, each on the freedom that statics have its drive hold: a slider may turn about its guide.
     fn write_motors(&self) -> Vec<String> {
         let (m, free) = (self.m, StateId::FREE);
-        let geometry = Pose::of_file(m, free).and_then(|pose| Geometry::new(m, free, &pose));
-        let held = geometry.ok().and_then(|g| driven_freedoms(m, &g).ok());
-        let held = held.unwrap_or_default();
+        let held = driven_freedoms(m, free);
         let drives = m.joints_in(free).filter(|&j| m.joints[j].drive);
         let motors = drives.filter_map(|j| {
             let of_drive = held.iter().find(|(k, _)| *k == j);

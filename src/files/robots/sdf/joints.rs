@@ -76,8 +76,6 @@ pub(crate) fn read_joint(
     let on = |link: usize, at: &RigidMotion| robot.places[link].inverse().then(at);
     let sides = [on(parent, &on_parent), on(child, &world)];
     let mut part = Part::new(&name, [parent, child], sides, joint_type).said_by(e);
-    robot.report.count_mapped(word);
-    left_out(e, &name, robot);
     match word {
         "ball" | "fixed" | "floating" => {}
         "universal" | "revolute2" => {
@@ -95,9 +93,7 @@ pub(crate) fn read_joint(
     if apart {
         told_apart(e, far, scene.assemble, robot);
     }
-    if let Some(leader) = read_mimic(e, &name, scope, robot)? {
-        part.comment = Some(format!("mimics {leader}"));
-    }
+    read_mimic(e, &name, scope, robot)?;
     robot.joints.push(part);
     Ok(())
 }
@@ -107,19 +103,6 @@ pub(crate) fn read_joint(
 /// frame.
 fn is_frame(name: &str, scene: &SdfScene<'_>) -> bool {
     scene.placed.get(name).is_some_and(|p| p.link.is_none())
-}
-
-/// Reports the elements of a joint that are not read.
-fn left_out(e: Element<'_>, name: &str, robot: &mut Robot) {
-    let known = "pose parent child axis axis2 screw_thread_pitch thread_pitch";
-    let within = "xyz limit mimic drake:mimic use_parent_model_frame";
-    let own = e.children().filter(|c| !c.is_one_of(known));
-    let axes = e.children();
-    let axes = axes.filter(|c| ["axis", "axis2"].contains(&c.name()));
-    let of_axes = axes.flat_map(Element::children);
-    for c in own.chain(of_axes.filter(|c| !c.is_one_of(within))) {
-        robot.report.count_dropped(c.name(), Some(name));
-    }
 }
 
 /// Reports the distance, in metres, of a joint from its parent frame.
@@ -133,13 +116,13 @@ fn told_apart(e: Element<'_>, far: f64, assembled: bool, robot: &mut Robot) {
     robot.report.add_approximation(&e.label(), what);
 }
 
-/// Records the coupling of a joint whose axis follows that of another, and returns the name of this joint.
-fn read_mimic(e: Element<'_>, name: &str, scope: &str, robot: &mut Robot) -> Read<Option<String>> {
+/// Records the coupling of a joint whose axis follows that of another.
+fn read_mimic(e: Element<'_>, name: &str, scope: &str, robot: &mut Robot) -> Read<()> {
     // Drake's own has its numbers as attributes.
     let mimics = ["mimic", "drake:mimic"];
     let inside = e.children().flat_map(Element::children);
     let Some(m) = inside.into_iter().find(|m| mimics.contains(&m.name())) else {
-        return Ok(None);
+        return Ok(());
     };
     let leader = absolute_name(scope, m.required_attribute("joint")?);
     let ratio = m.read_numbers::<1>("multiplier")?.map_or(1.0, |[x]| x);
@@ -148,7 +131,7 @@ fn read_mimic(e: Element<'_>, name: &str, scope: &str, robot: &mut Robot) -> Rea
         said_by: m.id,
         ..Ratio::new([&leader, name], ratio, e)
     });
-    Ok(Some(leader))
+    Ok(())
 }
 
 pub(crate) fn read_limits(e: Element<'_>) -> Read<Option<(f64, f64)>> {
@@ -201,7 +184,6 @@ fn two_axes(e: Element<'_>, mut part: Part, axes: [Vector; 2], robot: &mut Robot
     let between = robot.add_link(&format!("{}~1", part.id), RigidMotion::IDENTITY);
     let [parent, child] = part.links;
     // Axes that are not square: two hinges in series are the same.
-    robot.report.count_mapped("joint of two oblique axes");
     let [near, far] = part.sides;
     let mut hinge = |id: &str, links, sides, axis| {
         let mut part = Part::new(id, links, sides, JointType::Revolute).said_by(e);
@@ -229,8 +211,7 @@ pub(crate) fn read_weld(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Robot
         joint_end(e, "parent")?.1,
         joint_end(e, "child")?.1
     );
-    let part = robot.close_loop(e, &id, ends, JointType::Fixed, "weld constraint")?;
-    part.comment = Some("closes a loop: <drake:weld_constraint>".to_owned());
+    robot.close_loop(e, &id, ends, JointType::Fixed)?;
     Ok(())
 }
 
@@ -259,12 +240,10 @@ pub(crate) fn read_gearbox(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Ro
     };
     let id = |j: usize| robot.joints[j].id.clone();
     let [leads, follows] = [id(leader), id(follower)];
-    robot.joints[follower].comment = Some(format!("geared to {leads}"));
     robot.couplings.push(Ratio {
         gear: true,
         ..Ratio::new([&leads, &follows], -times * first * second, e)
     });
-    robot.report.count_mapped("gearbox");
     Ok(())
 }
 

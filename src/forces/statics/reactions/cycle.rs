@@ -1,12 +1,11 @@
 //! Reactions over the stroke of the first drive.
 
+use crate::closure::drive::{Driven, driven_freedoms};
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::follow::{Follower, column_slides};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::contact::Contacts;
-use crate::statics::reactions::drives::{Driven, driven_freedoms};
-use crate::statics::reactions::geometry::Geometry;
 use crate::statics::reactions::loads::Borne;
 use crate::statics::reactions::solution::Solution;
 use crate::statics::reactions::unsolved::Unsolved;
@@ -45,8 +44,7 @@ pub fn solve_cycle(
     stroke: Option<Stroke>,
     contacts: Contacts,
 ) -> Result<Cycle, Unsolved> {
-    let home = Pose::of_file(m, state)?;
-    let drives = driven_freedoms(m, &Geometry::new(m, state, &home)?)?;
+    let drives = driven_freedoms(m, state);
     let followed = follow_stroke(m, state, &drives, stroke)?;
     let each = followed.poses.iter();
     let positions: Vec<_> = each

@@ -2,10 +2,10 @@
 //! couplings. If redundant constraints leave reactions open, one of them is chosen: that of minimum norm, or that of
 //! elastic joints.
 
+use crate::closure::drive::Driven;
 use crate::geom::vector::{add, add_scaled, scale};
 use crate::model::loads::{Loads, Stiffness};
 use crate::model::mechanism::Mechanism;
-use crate::statics::reactions::drives::Driven;
 use crate::statics::reactions::geometry::{
     FreedomColumn, Geometry, Six, TOLERANCE, shift_wrench, wrench_power,
 };

@@ -15,12 +15,11 @@ use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, StateId};
 use crate::motion::pose::Pose;
 use crate::statics::greatest_abs;
 use crate::statics::reactions::couplings::{CouplingEquation, coupling_equations};
-use crate::statics::reactions::unsolved::Unsolved;
 pub use crate::statics::reactions::wrench::{
     FreedomColumn, Six, force_wrench, shift_wrench, wrench_power,
 };
 use crate::statics::reactions::wrench::{PosedFreedoms, carried_part, join_halves};
-use ozols_dense::{Matrix, svd};
+use ozols_dense::Matrix;
 
 /// Fraction of the largest singular value below which values count as zero.
 pub(crate) const TOLERANCE: f64 = 1e-9;
@@ -205,22 +204,6 @@ impl Geometry {
         let rows: Vec<Vec<f64>> =
             (columns.iter().map(|&c| self.closure_row(&self.columns[c]))).collect();
         Matrix::from_fn(self.unknown_count(), columns.len(), |r, c| rows[c][r])
-    }
-
-    /// Returns the speeds of the freedoms in independent motions: an orthonormal basis of the null space of the closure
-    /// matrix.
-    ///
-    /// # Errors
-    /// Returns an error if singular values do not converge.
-    pub(crate) fn free_motions(&self) -> Result<Vec<Vec<f64>>, Unsolved> {
-        let all: Vec<usize> = (0..self.columns.len()).collect();
-        if self.unknown_count() == 0 {
-            let alone = |c: &usize| all.iter().map(|x| f64::from(u8::from(x == c))).collect();
-            return Ok(all.iter().map(alone).collect());
-        }
-        let svd = svd(&self.closure_matrix(&all)).ok_or(Unsolved::NoConvergence)?;
-        let null = svd.null_space(svd.rank(TOLERANCE));
-        Ok((0..null.ncols()).map(|i| null.col(i).to_vec()).collect())
     }
 
     /// Returns the twists of the links if the freedoms move at these speeds, by link.

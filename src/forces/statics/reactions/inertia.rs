@@ -5,12 +5,12 @@
 //! theory in multibody kinematics", sec. 4]. Idle freedoms have the smallest speeds and rates that close. By D'Alembert, a link then
 //! carries the force -m a at its mass centre and the moment -(I α + ω × I ω).
 
+use crate::closure::drive::Driven;
 use crate::geom::rigid::split_twist;
 use crate::geom::vector::{add, add_scaled, cross, dot, length, scale, to_vector};
 use crate::model::loads::Inertia;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::motion::pose::Pose;
-use crate::statics::reactions::drives::Driven;
 use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, TOLERANCE, wrench_power};
 use crate::statics::reactions::unsolved::Unsolved;
 use crate::statics::reactions::wrench::join_halves;

@@ -1,10 +1,10 @@
 //! Loads on the links of a mechanism in a pose: weights, inertia forces, and external forces and moments.
 
+use crate::closure::drive::Driven;
 use crate::geom::vector::{add, to_vector};
 use crate::model::loads::{ExternalForce, Loads, acts_at, acts_in};
 use crate::model::mechanism::{LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
-use crate::statics::reactions::drives::{Driven, range_period};
 use crate::statics::reactions::geometry::{Geometry, Six, force_wrench, wrench_power};
 use crate::statics::reactions::inertia::{MovingMass, link_motions, moving_masses};
 use crate::statics::reactions::unsolved::Unsolved;
@@ -126,6 +126,13 @@ pub(crate) struct Borne {
     pub(crate) power: f64,
     /// Sums by link.
     pub(super) sums: Vec<Six>,
+}
+
+/// Returns the period of the first drive after which the ranges of forces repeat: one turn, if it turns.
+#[must_use]
+pub fn range_period(drives: &[Driven]) -> Option<f64> {
+    let first = drives.first().filter(|(_, f)| !f.is_slide());
+    first.map(|_| std::f64::consts::TAU)
 }
 
 impl Borne {

@@ -1,11 +1,11 @@
 //! Joint reactions and their reliability.
 
+use crate::closure::drive::Driven;
 use crate::geom::vector::{add, length, sub};
 use crate::model::joint_type::{CoupledFreedom, Freedom};
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::statics::reactions::contact::ContactForce;
 use crate::statics::reactions::couplings::CouplingEquation;
-use crate::statics::reactions::drives::Driven;
 use crate::statics::reactions::geometry::{Geometry, Six, dot, shift_wrench, wrench_power};
 use crate::statics::{drop_rounding, greatest_abs};
 use serde::{Serialize, Serializer};

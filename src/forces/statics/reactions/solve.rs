@@ -1,13 +1,13 @@
 //! Reactions of a mechanism in one pose.
 
+use crate::closure::drive::{Driven, driven_freedoms};
 use crate::model::loads::Loads;
 use crate::model::mechanism::{LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::contact::{Contacts, find_contacts};
-use crate::statics::reactions::drives::{Driven, driven_freedoms, range_period};
 use crate::statics::reactions::equations::{self, System, Transmitted};
 use crate::statics::reactions::geometry::{Geometry, Six, wrench_power};
-use crate::statics::reactions::loads::{Borne, link_loads};
+use crate::statics::reactions::loads::{Borne, link_loads, range_period};
 use crate::statics::reactions::solution::{
     NO_STRESS, Solution, Uniqueness, left_over, open_components, open_couplings,
     passed_by_couplings, present_reactions,
@@ -61,8 +61,7 @@ impl Reactions {
         loads: &Loads,
     ) -> Result<Solution, Unsolved> {
         let pose = Pose::of_file(m, state)?;
-        let geometry = Geometry::new(m, state, &pose)?;
-        let drives = driven_freedoms(m, &geometry)?;
+        let drives = driven_freedoms(m, state);
         Self::solve_at(m, state, loads, &pose, 0.0, &drives)
     }
 

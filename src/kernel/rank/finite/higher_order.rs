@@ -25,15 +25,16 @@ use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::Mechanism;
-use crate::motion::displacement_series::{self, Series, twist_matrix};
 use crate::motion::pose::Pose;
-use crate::rank::finite::higher_order::line::Solved;
+use crate::rank::finite::higher_order::line::{Expansion, Solved};
 use crate::rank::finite::power_series::Monomials;
 
 /// Number of entries of J² up to which series are used.
 const LARGEST: usize = 40_000;
 /// Maximum number of products per query.
 const WORK: usize = 6_000_000;
+/// Factor on the number of products for the Macaulay matrices.
+const MATRICES: usize = 8;
 /// Order up to which one motion is expanded if no bound is known.
 pub(crate) const ORDER: usize = 64;
 /// Degree up to which series of several variables are expanded.
@@ -103,53 +104,55 @@ impl HigherOrder {
     /// Returns the degree d that proves the pose isolated in a random subspace of `m` dimensions of its instantaneous
     /// motions. Returns `None` if no degree within the work limit does.
     ///
+    /// The terms of a degree follow from expansions along as many random lines as there are monomials of that degree.
+    ///
     /// # Complexity
-    /// At most `WORK` products and as many again for the Macaulay matrices.
+    /// About `WORK` products and a few times as many for the Macaulay matrices.
     #[must_use]
     pub fn isolating_degree(&self, m: usize) -> Option<usize> {
         if m == 1 {
             return self.random_line(ORDER).stopped;
         }
+        let field = self.solved.field;
         let f = self.solved.twists.len();
         let mut monomials = Monomials::new(m);
-        let mut q = self.random_subspace(m);
+        let span = self.random_subspace(m);
+        let mut random = unrelated_numbers(field);
+        let mut lines: Vec<(Vec<Residue>, Expansion<'_>)> = Vec::new();
         let mut g: Vec<Vec<Residue>> =
             vec![Vec::new(); self.solved.solve.len() - self.solved.pivots.len()];
         let mut work = 0;
         for degree in 2..=DEGREE {
             monomials.extend(degree);
-            let terms = monomials.count_monomials();
-            let products = f * (27 + degree) * monomials.count_pairs()
-                + self.solved.solve.len().pow(2) * terms;
-            work += products;
+            let terms = monomials.of_degree(degree);
+            work += f * (27 + degree) * monomials.count_pairs()
+                + self.solved.solve.len().pow(2) * terms.end;
             if work > WORK {
                 return None;
             }
-            q.iter_mut().for_each(|s| s.resize(terms, 0));
-            g.iter_mut().for_each(|s| s.resize(terms, 0));
-            let gaps: Vec<Vec<Residue>> = self
-                .solved
-                .walks
-                .iter()
-                .flat_map(|walk| {
-                    contour_gaps(self.solved.field, &self.solved.twists, walk, &q, &monomials)
-                })
-                .collect();
-            for t in monomials.of_degree(degree) {
-                for (i, row) in self.solved.solve.iter().enumerate() {
-                    // Couplings are linear: they have no gap of higher order.
-                    let terms = row.iter().zip(&gaps);
-                    let sum = self
-                        .solved
-                        .field
-                        .sum_of_products(terms.map(|(&a, gap)| (a, gap[t])));
-                    match self.solved.pivots.get(i) {
-                        Some(&p) => q[p][t] = self.solved.field.neg(sum),
-                        None => g[i - self.solved.pivots.len()][t] = sum,
-                    }
-                }
+            while lines.len() < terms.len() {
+                let at: Vec<Residue> = (0..m).map(|_| random()).collect();
+                let speeds: Vec<Residue> = span.iter().map(|q| field.dot(q, &at)).collect();
+                let mut line = Expansion::along(&self.solved, &speeds);
+                (2..degree).for_each(|_| {
+                    line.next_order(|_| 0);
+                });
+                lines.push((at, line));
             }
-            match monomials.all_in_ideal(self.solved.field, &g, 8 * WORK) {
+            let values = lines.iter_mut().map(|(at, line)| {
+                let powers = terms.clone().map(|t| monomials.value(field, t, at));
+                powers.chain(line.next_order(|_| 0)).collect::<Vec<_>>()
+            });
+            let solved = Echelon::from_vectors(field, values.collect::<Vec<_>>());
+            if !solved.pivots().into_iter().eq(0..terms.len()) {
+                return None;
+            }
+            let rows = solved.reduced_rows();
+            for (i, series) in g.iter_mut().enumerate() {
+                series.resize(terms.start, 0);
+                series.extend(rows.iter().map(|row| row[terms.len() + i]));
+            }
+            match monomials.all_in_ideal(field, &g, MATRICES * WORK) {
                 Some(true) => return Some(degree),
                 Some(false) => {}
                 None => return None,
@@ -161,7 +164,7 @@ impl HigherOrder {
     /// Expands one motion in a random direction, to a higher order than is possible for several together.
     #[must_use]
     pub fn random_line(&self, order: usize) -> Line {
-        let speeds: Vec<Residue> = self.random_subspace(1).iter().map(|q| q[1]).collect();
+        let speeds: Vec<Residue> = self.random_subspace(1).iter().map(|q| q[0]).collect();
         line::expand_line(&self.solved, &speeds, None, order).0
     }
 
@@ -186,7 +189,7 @@ impl HigherOrder {
     /// Returns the equations in the free coordinates to second order at these weights.
     #[must_use]
     pub(super) fn second_order(&self, weights: &[Residue]) -> Vec<Residue> {
-        line::second_order(&self.solved, &self.speeds_along(weights))
+        Expansion::along(&self.solved, &self.speeds_along(weights)).next_order(|_| 0)
     }
 
     /// Returns the field and the number of free coordinates.
@@ -206,29 +209,30 @@ impl HigherOrder {
         q
     }
 
-    /// Returns the coordinates to first order in `m` variables that span a random subspace of the instantaneous
-    /// motions.
+    /// Returns `m` random instantaneous motions: their speeds for each column.
     fn random_subspace(&self, m: usize) -> Vec<Vec<Residue>> {
-        let mut random = 0x9e37_79b9_7f4a_7c15_u64;
-        let mut any = || {
-            // xorshift64*: any numbers unrelated to the geometry are enough.
-            random ^= random >> 12;
-            random ^= random << 25;
-            random ^= random >> 27;
-            self.solved
-                .field
-                .from_i64((random.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 2) as i64)
-        };
+        let mut random = unrelated_numbers(self.solved.field);
         let weights: Vec<Vec<Residue>> = (0..self.free.len())
-            .map(|_| (0..m).map(|_| any()).collect())
+            .map(|_| (0..m).map(|_| random()).collect())
             .collect();
-        let mut q: Vec<Vec<Residue>> = vec![vec![0]; self.solved.twists.len()];
+        let mut q: Vec<Vec<Residue>> = vec![Vec::new(); self.solved.twists.len()];
         for v in 0..m {
             let along: Vec<Residue> = weights.iter().map(|w| w[v]).collect();
             let speeds = self.speeds_along(&along);
             q.iter_mut().zip(speeds).for_each(|(q, x)| q.push(x));
         }
         q
+    }
+}
+
+/// Returns numbers unrelated to the geometry, always the same, by xorshift64*.
+fn unrelated_numbers(field: Field) -> impl FnMut() -> Residue {
+    let mut random = 0x9e37_79b9_7f4a_7c15_u64;
+    move || {
+        random ^= random >> 12;
+        random ^= random << 25;
+        random ^= random >> 27;
+        field.from_i64((random.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 2) as i64)
     }
 }
 
@@ -301,85 +305,4 @@ fn beside_unit(
         row[f + i] = field.one();
     }
     matrix
-}
-
-/// A displacement whose entries are series: three rows of a rotation, each followed by its component of the translation.
-type SeriesMotion = [[Series; 4]; 3];
-
-/// Returns the six gaps of a contour, given by its columns with their directions, if the coordinates `q` of these
-/// columns are series.
-fn contour_gaps(
-    f: Field,
-    twists: &[Vec<Residue>],
-    walk: &[(usize, bool)],
-    q: &[Series],
-    monomials: &Monomials,
-) -> Vec<Series> {
-    let mut at = identity(f, monomials);
-    for &(c, forward) in walk {
-        if q[c].iter().any(|&x| x != 0) {
-            let signed = |&x: &Residue| if forward { x } else { f.neg(x) };
-            let angle: Series = q[c].iter().map(signed).collect();
-            at = product(f, &at, &exp(f, &twists[c], &angle, monomials), monomials);
-        }
-    }
-    // Rotation and translation vanish if and only if the displacement does.
-    let half = f.inv(f.from_i64(2));
-    let skew = |i: usize, j: usize| -> Series {
-        let differences = at[i][j].iter().zip(&at[j][i]);
-        differences
-            .map(|(&a, &b)| f.mul(half, f.sub(a, b)))
-            .collect()
-    };
-    let turns = [skew(2, 1), skew(0, 2), skew(1, 0)];
-    turns
-        .into_iter()
-        .chain(at.map(|[.., shift]| shift))
-        .collect()
-}
-
-fn identity(f: Field, monomials: &Monomials) -> SeriesMotion {
-    let mut out: SeriesMotion = Default::default();
-    for (i, row) in out.iter_mut().enumerate() {
-        row.fill(vec![0; monomials.count_monomials()]);
-        row[i][0] = f.one();
-    }
-    out
-}
-
-/// Returns the displacement by an angle about a twist, the sum of the powers of the twist's matrix, each times that
-/// power of the angle over its factorial.
-fn exp(f: Field, twist: &[Residue], angle: &Series, monomials: &Monomials) -> SeriesMotion {
-    let mut out = identity(f, monomials);
-    let hat = twist_matrix(f, &std::array::from_fn(|i| twist[i]));
-    let (mut matrix, mut power) = (hat, angle.clone());
-    for n in 2.. {
-        let entries = out.iter_mut().flatten().zip(matrix.iter().flatten());
-        entries.for_each(|(entry, &by)| f.add_multiple(entry, by, &power));
-        matrix = displacement_series::product(f, &matrix, &hat);
-        if n > monomials.degree() || matrix == [[0; 4]; 3] {
-            break;
-        }
-        power = monomials.product(f, &power, angle);
-        let part = f.inv(f.from_i64(n as i64));
-        power.iter_mut().for_each(|x| *x = f.mul(*x, part));
-    }
-    out
-}
-
-/// Returns the product of a displacement and another that follows it in the moved frame.
-fn product(f: Field, a: &SeriesMotion, b: &SeriesMotion, monomials: &Monomials) -> SeriesMotion {
-    let entry = |i: usize, j: usize| {
-        let shift = if j == 3 {
-            a[i][3].clone()
-        } else {
-            vec![0; monomials.count_monomials()]
-        };
-        (0..3).fold(shift, |mut sum, k| {
-            let more = monomials.product(f, &a[i][k], &b[k][j]);
-            f.add_multiple(&mut sum, f.one(), &more);
-            sum
-        })
-    };
-    [0, 1, 2].map(|i| [0, 1, 2, 3].map(|j| entry(i, j)))
 }

@@ -58,11 +58,11 @@ impl Monomials {
             .collect();
     }
 
-    pub(in crate::rank) fn degree(&self) -> usize {
+    fn degree(&self) -> usize {
         self.starts.len() - 2
     }
 
-    pub(in crate::rank) fn count_monomials(&self) -> usize {
+    fn count_monomials(&self) -> usize {
         self.keys.len()
     }
 
@@ -74,14 +74,12 @@ impl Monomials {
         self.starts[degree]..self.starts[degree + 1]
     }
 
-    pub(in crate::rank) fn product(&self, f: Field, a: &[Residue], b: &[Residue]) -> Vec<Residue> {
-        let mut out = vec![0; self.count_monomials()];
-        for (&x, products) in a.iter().zip(&self.products).filter(|(x, _)| **x != 0) {
-            for (&y, &at) in b.iter().zip(products).filter(|(y, _)| **y != 0) {
-                out[at] = f.add(out[at], f.mul(x, y));
-            }
-        }
-        out
+    /// Returns the value of a monomial at a point.
+    pub(in crate::rank) fn value(&self, f: Field, monomial: usize, at: &[Residue]) -> Residue {
+        let key = self.keys[monomial];
+        let powers = at.iter().enumerate();
+        let powers = powers.map(|(v, &x)| f.pow(x, (key >> (8 * v) & 0xff) as u64));
+        powers.fold(f.one(), |product, x| f.mul(product, x))
     }
 
     /// Returns whether all monomials of the highest degree lie in the ideal of some series, up to higher degrees.

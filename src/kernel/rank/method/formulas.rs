@@ -8,16 +8,9 @@ use crate::rank::method::{Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ, 
 
 /// Returns `dim`·(n - 1) - Σ (`dim` - f_i) over the joints of a state, less one for each coupling. `freedoms` is Σ f_i.
 fn count_mobility(mechanism: &Mechanism, state: StateId, dim: i64, freedoms: usize) -> i64 {
-    let mut links: Vec<_> = mechanism
-        .joints_in(state)
-        .flat_map(|j| mechanism.joints[j].links)
-        .collect();
-    links.sort_unstable();
-    links.dedup();
+    let links = mechanism.links_in(state).count();
     let constraints = dim * to_i64(mechanism.joints_in(state).count()) - to_i64(freedoms);
-    dim * (to_i64(links.len()).max(1) - 1)
-        - constraints
-        - to_i64(mechanism.couplings_in(state).count())
+    dim * (to_i64(links).max(1) - 1) - constraints - to_i64(mechanism.couplings_in(state).count())
 }
 
 /// W = 6(n - 1) - Σ constraints.

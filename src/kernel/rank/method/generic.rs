@@ -108,14 +108,11 @@ fn answer_generic(mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAns
         Mode::Spatial => 6,
         Mode::Planar { .. } => 3,
     };
-    let mut links: Vec<LinkId> = Vec::new();
+    let links: Vec<LinkId> = mechanism.links_in(state).collect();
     let mut bars = Vec::new();
     for j in mechanism.joints_in(state) {
         let joint = &mechanism.joints[j];
-        let [a, b] = joint.links.map(|l| {
-            links.extend((!links.contains(&l)).then_some(l));
-            links.iter().position(|&x| x == l).unwrap_or(0)
-        });
+        let [a, b] = joint.links.map(|l| links.binary_search(&l).unwrap_or(0));
         let class = usize::saturating_sub(dim, joint.joint_type.freedoms().len());
         bars.extend(std::iter::repeat_n((a, b), class));
     }

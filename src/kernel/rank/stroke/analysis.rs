@@ -73,17 +73,19 @@ pub struct StrokeFigures {
     pub undriven: usize,
 }
 
-/// The input of a stroke analysis.
+/// A stroke to follow.
 #[derive(Debug, Clone)]
 pub struct StrokeRequest<'a> {
     /// The mechanism.
     pub mechanism: &'a Mechanism,
     /// The state.
     pub state: StateId,
+    /// Its pose in the file, closed or nearly so.
+    pub pose: Pose,
     /// The column of the drive in [`Pose::columns`].
     pub drive: usize,
     /// Columns of the other drives.
-    pub held: &'a [usize],
+    pub held: Vec<usize>,
     /// Start and end, in radians or the file's length unit.
     pub range: [f64; 2],
     /// Number of equal steps.
@@ -118,8 +120,8 @@ struct PoseValues {
 }
 
 impl<'a> Looker<'a> {
-    fn new(request: &'a StrokeRequest<'a>, pose: &Pose) -> Looker<'a> {
-        let m = request.mechanism;
+    fn new(request: &'a StrokeRequest<'a>) -> Looker<'a> {
+        let (m, pose) = (request.mechanism, &request.pose);
         let slides = pose.columns[request.drive].freedom.is_slide();
         let middle = |l: LinkId| {
             let of = m.joints_at(l, request.state);
@@ -315,8 +317,8 @@ impl<'a> Looker<'a> {
     }
 
     /// Returns the number of output motions with all drives held.
-    fn count_undriven(&self, pose: &Pose) -> usize {
-        let m = self.request.mechanism;
+    fn count_undriven(&self) -> usize {
+        let (m, pose) = (self.request.mechanism, &self.request.pose);
         let paths: Vec<_> = self
             .outputs
             .iter()
@@ -334,47 +336,49 @@ impl<'a> Looker<'a> {
     }
 }
 
-/// Follows a drive over a stroke and analyses every pose. `pose` is that of the file, closed or nearly so.
-///
-/// # Complexity
-/// About ten closures and singular values of O((6k + f)³) per radian and step, and about thirty per change.
-#[must_use]
-pub fn analyse_stroke(request: &StrokeRequest<'_>, pose: &Pose) -> StrokeFigures {
-    let looker = Looker::new(request, pose);
-    let mut follower = Follower::new(pose.clone(), request.drive, request.held);
-    let range = request.range.map(|x| x / looker.unit);
-    let (mut poses, mut way, mut stop) = (Vec::new(), Vec::new(), None);
-    for (i, to) in stroke_positions(range, request.steps).enumerate() {
-        let arrived = follower.advance_to(to, |f| {
-            if i > 0 {
-                way.push(looker.sample_pose(f));
-            }
-        });
-        if i == 0 && arrived.is_ok() {
-            way.push(looker.sample_pose(&follower));
-        }
-        if let Err(s) = arrived {
-            stop = Some(Stop {
-                at: s.at * looker.unit,
-                ..s
+impl StrokeRequest<'_> {
+    /// Follows the drive and analyses every pose.
+    ///
+    /// # Complexity
+    /// About ten closures and singular values of O((6k + f)³) per radian and step, and about thirty per change.
+    #[must_use]
+    pub fn follow_stroke(&self) -> StrokeFigures {
+        let looker = Looker::new(self);
+        let mut follower = Follower::new(self.pose.clone(), self.drive, &self.held);
+        let range = self.range.map(|x| x / looker.unit);
+        let (mut poses, mut way, mut stop) = (Vec::new(), Vec::new(), None);
+        for (i, to) in stroke_positions(range, self.steps).enumerate() {
+            let arrived = follower.advance_to(to, |f| {
+                if i > 0 {
+                    way.push(looker.sample_pose(f));
+                }
             });
-            break;
+            if i == 0 && arrived.is_ok() {
+                way.push(looker.sample_pose(&follower));
+            }
+            if let Err(s) = arrived {
+                stop = Some(Stop {
+                    at: s.at * looker.unit,
+                    ..s
+                });
+                break;
+            }
+            // A requested position is a pose along the path, the last one.
+            let last = way.last().filter(|s| s.at == follower.drive_position());
+            poses.push(match last {
+                Some(s) => looker.figures_of(s),
+                None => looker.figures_of(&looker.sample_pose(&follower)),
+            });
         }
-        // A requested position is a pose along the path, the last one.
-        let last = way.last().filter(|s| s.at == follower.drive_position());
-        poses.push(match last {
-            Some(s) => looker.figures_of(s),
-            None => looker.figures_of(&looker.sample_pose(&follower)),
-        });
-    }
-    StrokeFigures {
-        changes: looker.rank_changes(&way),
-        poses,
-        stop,
-        // At a crossing of branches there are several motions, and the drive does not choose one.
-        undriven: match stop.map(|s| s.why) {
-            Some(Why::Singular | Why::Instantaneous) => 0,
-            _ => looker.count_undriven(pose),
-        },
+        StrokeFigures {
+            changes: looker.rank_changes(&way),
+            poses,
+            stop,
+            // At a crossing of branches there are several motions, and the drive does not choose one.
+            undriven: match stop.map(|s| s.why) {
+                Some(Why::Singular | Why::Instantaneous) => 0,
+                _ => looker.count_undriven(),
+            },
+        }
     }
 }

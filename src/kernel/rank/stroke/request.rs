@@ -1,13 +1,13 @@
 //! A stroke as requested by the user: the column that moves, the columns held, and the accuracy of following.
 
+use crate::closure::drive::driven_freedoms;
 use crate::geom::exact::ExactError;
-use crate::model::joint_type::Freedom;
 use crate::model::loads;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::follow::{Follower, column_slides};
 use crate::motion::pose::{FLAT, Pose};
-use crate::rank::rounded::verdict::{Meant, RankVerdict};
-use crate::rank::stroke::analysis::{StrokeFigures, StrokeRequest, analyse_stroke};
+use crate::rank::rounded::verdict::RankVerdict;
+use crate::rank::stroke::analysis::StrokeRequest;
 use itertools::Itertools;
 use thiserror::Error;
 
@@ -77,30 +77,9 @@ pub enum AskedError {
         /// The joints that could be driven.
         could: String,
     },
-    /// Only spherical joints could be drives.
-    #[error("{name} has no joint with its own axis to move about or along; {could}")]
-    Still {
-        /// Name of the mechanism.
-        name: String,
-        /// The joints that could be driven.
-        could: String,
-    },
     /// A coordinate has no value.
     #[error(transparent)]
     Exact(#[from] ExactError),
-}
-
-/// A requested stroke.
-#[derive(Debug)]
-pub struct AskedStroke<'a> {
-    mechanism: &'a Mechanism,
-    state: StateId,
-    verdict: &'a RankVerdict,
-    tolerance: Option<f64>,
-    range: loads::Stroke,
-    pose: Pose,
-    drive: usize,
-    held: Vec<usize>,
 }
 
 /// Returns true if a column belongs to a ball, whose axes are those of the file's frame and not a choice of the user.
@@ -127,7 +106,7 @@ fn column_names(m: &Mechanism, pose: &Pose) -> Vec<(usize, String)> {
         .collect()
 }
 
-impl<'a> AskedStroke<'a> {
+impl<'a> StrokeRequest<'a> {
     /// Creates the stroke for the mechanism of a verdict. The range is given as written and as parsed. The joint `named` is
     /// the drive.
     ///
@@ -136,6 +115,19 @@ impl<'a> AskedStroke<'a> {
     ///
     /// # Errors
     /// Returns an error if the mechanism has no such drive. Also if it is undecided which mechanism is intended.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::{loads::Stroke, mechanism::StateId};
+    /// use ozols::rank::{rounded::verdict::rank_verdict, stroke::analysis::StrokeRequest};
+    /// let bennett = ozols::built_in("bennett")?;
+    /// let verdict = rank_verdict(&bennett, StateId::FREE)?;
+    /// let range = Stroke { from: 0.0, to: 1.0, steps: 4 };
+    /// let asked = StrokeRequest::new(&bennett, StateId::FREE, "0rad..1rad", range, None, &verdict, None)?;
+    /// // It moves throughout, with three redundant constraints in every pose.
+    /// assert!(asked.follow_stroke().poses.iter().all(|p| (p.mobility, p.redundant) == (1, 3)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new(
         m: &'a Mechanism,
         state: StateId,
@@ -143,15 +135,15 @@ impl<'a> AskedStroke<'a> {
         range: loads::Stroke,
         named: Option<&str>,
         verdict: &'a RankVerdict,
-        tolerance: Option<f64>,
-    ) -> Result<AskedStroke<'a>, AskedError> {
+        mut tolerance: Option<f64>,
+    ) -> Result<StrokeRequest<'a>, AskedError> {
         if !verdict.is_decided() {
             let why = verdict.explain_undecided();
             let name = m.name.clone();
             return Err(AskedError::Undecided { name, why });
         }
         let m = verdict.intended_mechanism().unwrap_or(m);
-        let pose = Pose::of_file(m, state)?;
+        let mut pose = Pose::of_file(m, state)?;
         let (drive, held) = find_drive(m, &pose, state, named)?;
         let slide = column_slides(&pose, drive);
         lengths_where_it_slides(m, slide, text)?;
@@ -159,22 +151,26 @@ impl<'a> AskedStroke<'a> {
         if range.steps > MOST || range.from.abs() > far || range.to.abs() > far {
             return Err(AskedError::Far(far));
         }
-        Ok(AskedStroke {
+        // Contours with rounded coordinates close only within the rounding.
+        let measured = verdict.rounded.as_ref().is_some_and(|r| r.digits.is_some());
+        let rounded = measured || !verdict.is_as_written();
+        if let (true, Some(n)) = (rounded, verdict.numeric) {
+            pose = pose.with_accuracy((10.0 * n.dropped).clamp(1e-16, verdict.tolerance));
+            tolerance = Some(verdict.tolerance.max(FLAT));
+        } else if let Some(t) = tolerance {
+            // Singular values below a hundred times the accuracy count as zero along the path.
+            pose = pose.with_accuracy(t / 100.0);
+        }
+        Ok(StrokeRequest {
             mechanism: m,
             state,
-            verdict,
-            tolerance,
-            range,
             pose,
             drive,
             held,
+            range: [range.from, range.to],
+            steps: range.steps,
+            tolerance,
         })
-    }
-
-    /// Returns the intended mechanism, and the state.
-    #[must_use]
-    pub fn subject(&self) -> (&'a Mechanism, StateId) {
-        (self.mechanism, self.state)
     }
 
     /// Returns the name of the drive, and whether it slides.
@@ -182,52 +178,6 @@ impl<'a> AskedStroke<'a> {
     pub fn drive_name(&self) -> (String, bool) {
         let name = name_of(self.mechanism, &self.pose, self.drive);
         (name, column_slides(&self.pose, self.drive))
-    }
-
-    /// Returns the start and the end.
-    #[must_use]
-    pub fn range(&self) -> [f64; 2] {
-        [self.range.from, self.range.to]
-    }
-
-    /// Follows the stroke.
-    ///
-    /// # Examples
-    /// ```
-    /// use ozols::model::{loads::Stroke, mechanism::StateId};
-    /// use ozols::rank::{rounded::verdict::rank_verdict, stroke::request::AskedStroke};
-    /// let bennett = ozols::built_in("bennett")?;
-    /// let verdict = rank_verdict(&bennett, StateId::FREE)?;
-    /// let range = Stroke { from: 0.0, to: 1.0, steps: 4 };
-    /// let asked = AskedStroke::new(&bennett, StateId::FREE, "0rad..1rad", range, None, &verdict, None)?;
-    /// // It moves throughout, with three redundant constraints in every pose.
-    /// assert!(asked.follow_stroke().poses.iter().all(|p| (p.mobility, p.redundant) == (1, 3)));
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    #[must_use]
-    pub fn follow_stroke(&self) -> StrokeFigures {
-        let found = self.verdict;
-        // Contours with rounded coordinates close only within the rounding.
-        let measured = found.rounded.as_ref().is_some_and(|r| r.digits.is_some());
-        let rounded = measured || !matches!(found.meant, Meant::AsWritten);
-        let (mut pose, mut tolerance) = (self.pose.clone(), self.tolerance);
-        if let (true, Some(n)) = (rounded, found.numeric) {
-            pose = pose.with_accuracy((10.0 * n.dropped).clamp(1e-16, found.tolerance));
-            tolerance = Some(found.tolerance.max(FLAT));
-        } else if let Some(t) = tolerance {
-            // Singular values below a hundred times the accuracy count as zero along the path.
-            pose = pose.with_accuracy(t / 100.0);
-        }
-        let request = StrokeRequest {
-            mechanism: self.mechanism,
-            state: self.state,
-            drive: self.drive,
-            held: &self.held,
-            range: self.range(),
-            steps: self.range.steps,
-            tolerance,
-        };
-        analyse_stroke(&request, &pose)
     }
 }
 
@@ -248,7 +198,7 @@ fn find_drive(
     asked: Option<&str>,
 ) -> Result<(usize, Vec<usize>), AskedError> {
     let names = column_names(m, pose);
-    let driven = |j: JointId| m.joints[j].drive;
+    let drives = driven_freedoms(m, state);
     let column = |joint: JointId, freedom: Option<&str>| {
         let mut of: Vec<_> = names
             .iter()
@@ -282,30 +232,29 @@ fn find_drive(
             column(joint, freedom)?
         }
         None => {
-            let mut driving = m.joints_in(state).filter(|&j| driven(j));
-            let joint = driving.next().ok_or_else(|| AskedError::NoDrive {
+            let (joint, freedom) = drives.first().ok_or_else(|| AskedError::NoDrive {
                 name: m.name.clone(),
                 could: describe_choices(m, pose, &names),
             })?;
-            column(joint, m.joints[joint].drive_freedom.map(Freedom::name))?
+            column(*joint, Some(freedom.name()))?
         }
     };
     let own = pose.columns[chosen].joint;
     let held = (0..pose.columns.len())
         .filter(|&c| {
             let column = &pose.columns[c];
-            column.joint != own && m.joints[column.joint].may_drive(column.freedom)
+            column.joint != own && drives.contains(&(column.joint, column.freedom))
         })
-        .filter(|_| driven(own))
+        .filter(|_| m.joints[own].drive)
         .collect();
     Ok((chosen, held))
 }
 
-/// Returns the named column, the drive, or otherwise the first column that can move and does not belong to a ball. Also
-/// returns the columns that are held.
+/// Returns the named column, the drive, or otherwise the first column that can move, one of a ball only if no other can.
+/// Also returns the columns that are held.
 ///
 /// # Errors
-/// Returns an error if there is no such column, or if only balls can move.
+/// Returns an error if there is no such column.
 pub fn drive_or_any(
     m: &Mechanism,
     pose: &Pose,
@@ -313,16 +262,13 @@ pub fn drive_or_any(
     asked: Option<&str>,
 ) -> Result<(usize, Vec<usize>), AskedError> {
     let driven = m.joints_in(state).any(|j| m.joints[j].drive);
-    if asked.is_some() || driven {
-        return find_drive(m, pose, state, asked);
+    if asked.is_none()
+        && !driven
+        && let Some(first) = moving_columns(pose).next()
+    {
+        return Ok((first, Vec::new()));
     }
-    let mut columns = (0..pose.columns.len()).filter(|&c| !of_ball(pose, c));
-    let first = columns.find(|&c| column_moves(pose, c));
-    let first = first.ok_or_else(|| AskedError::Still {
-        name: m.name.clone(),
-        could: describe_choices(m, pose, &column_names(m, pose)),
-    })?;
-    Ok((first, Vec::new()))
+    find_drive(m, pose, state, asked)
 }
 
 /// Checks that a range, as written, is in lengths if the drive slides.
@@ -352,15 +298,20 @@ fn column_moves(pose: &Pose, column: usize) -> bool {
     Follower::new(pose.clone(), column, &[]).drive_share() > 1e-6
 }
 
+/// Returns the columns that can move in a pose, with those of balls last.
+fn moving_columns(pose: &Pose) -> impl Iterator<Item = usize> {
+    let kinds = [false, true].into_iter();
+    let columns = kinds
+        .flat_map(move |ball| (0..pose.columns.len()).filter(move |&c| of_ball(pose, c) == ball));
+    columns.filter(|&c| column_moves(pose, c))
+}
+
 /// Describes the joints that could be drives in this pose, with balls last.
 fn describe_choices(m: &Mechanism, pose: &Pose, names: &[(usize, String)]) -> String {
-    let kinds =
-        [false, true].map(|ball| names.iter().filter(move |(c, _)| of_ball(pose, *c) == ball));
-    let moving = kinds
-        .into_iter()
-        .flatten()
-        .filter(|(c, _)| column_moves(pose, *c));
-    let list = moving.map(|(_, n)| n).take(30).join(", ");
+    let list = moving_columns(pose)
+        .map(|c| &names[c].1)
+        .take(30)
+        .join(", ");
     if list.is_empty() {
         format!("none can move in {}", m.name)
     } else {

@@ -1,14 +1,15 @@
 //! Numbers of variants, as wide as they need to be.
 
 use num_bigint::BigUint;
-use std::ops::AddAssign;
 
 /// A number of variants.
-pub(crate) trait Count: Clone + Send + Sync + for<'a> AddAssign<&'a Self> {
+pub(crate) trait Count: Clone + Send + Sync {
     /// Returns the count of no variant.
     fn zero_count() -> Self;
     /// Returns the count of one variant.
     fn unit_count() -> Self;
+    /// Adds a number.
+    fn add_count(&mut self, other: &Self);
     /// Adds the product of two numbers.
     fn add_product(&mut self, a: &Self, b: &Self);
     /// Returns the count as a number of any size.
@@ -19,6 +20,7 @@ pub(crate) trait Count: Clone + Send + Sync + for<'a> AddAssign<&'a Self> {
     }
 }
 
+/// What exceeds 128 bits counts as the largest number.
 impl Count for u128 {
     fn zero_count() -> Self {
         0
@@ -26,8 +28,11 @@ impl Count for u128 {
     fn unit_count() -> Self {
         1
     }
+    fn add_count(&mut self, other: &Self) {
+        *self = self.saturating_add(*other);
+    }
     fn add_product(&mut self, a: &Self, b: &Self) {
-        *self += a * b;
+        *self = self.saturating_add(a.saturating_mul(*b));
     }
     fn to_big_uint(&self) -> BigUint {
         BigUint::from(*self)
@@ -40,6 +45,9 @@ impl Count for BigUint {
     }
     fn unit_count() -> Self {
         BigUint::from(1u8)
+    }
+    fn add_count(&mut self, other: &Self) {
+        *self += other;
     }
     fn add_product(&mut self, a: &Self, b: &Self) {
         *self += a * b;
@@ -57,18 +65,6 @@ impl Count for BigUint {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Wide<const N: usize>([u64; N]);
 
-impl<const N: usize> AddAssign<&Wide<N>> for Wide<N> {
-    fn add_assign(&mut self, other: &Wide<N>) {
-        let mut carried = false;
-        for (own, &digit) in self.0.iter_mut().zip(&other.0) {
-            let (sum, over) = own.overflowing_add(digit);
-            let (sum, again) = sum.overflowing_add(u64::from(carried));
-            (*own, carried) = (sum, over | again);
-        }
-        debug_assert!(!carried, "no count exceeds that of all variants");
-    }
-}
-
 impl<const N: usize> Count for Wide<N> {
     fn zero_count() -> Self {
         Wide([0; N])
@@ -77,6 +73,15 @@ impl<const N: usize> Count for Wide<N> {
         let mut digits = [0; N];
         digits[0] = 1;
         Wide(digits)
+    }
+    fn add_count(&mut self, other: &Self) {
+        let mut carried = false;
+        for (own, &digit) in self.0.iter_mut().zip(&other.0) {
+            let (sum, over) = own.overflowing_add(digit);
+            let (sum, again) = sum.overflowing_add(u64::from(carried));
+            (*own, carried) = (sum, over | again);
+        }
+        debug_assert!(!carried, "no count exceeds that of all variants");
     }
     fn add_product(&mut self, a: &Self, b: &Self) {
         for (i, &digit) in b.0.iter().enumerate().filter(|(_, d)| **d != 0) {
@@ -105,15 +110,15 @@ mod tests {
         let (mut digits, mut big) = (Wide::<4>::unit_count(), BigUint::unit_count());
         for _ in 0..160 {
             let once = digits.clone();
-            digits += &once;
-            digits += &once;
+            digits.add_count(&once);
+            digits.add_count(&once);
             big *= 3u8;
             assert_eq!(digits.to_big_uint(), big);
         }
         assert!(big.bits() > 250, "all four digits are in use");
         while big.bits() < 256 {
             let once = digits.clone();
-            digits += &once;
+            digits.add_count(&once);
             big *= 2u8;
         }
         assert_eq!(digits.to_big_uint(), big);
@@ -123,8 +128,8 @@ mod tests {
     #[test]
     fn digits_multiply_as_numbers_of_any_size_do() {
         let mut factor = Wide::<8>::unit_count();
-        (0..70).for_each(|_| factor += &factor.clone());
-        factor += &Wide::unit_count();
+        (0..70).for_each(|_| factor.add_count(&factor.clone()));
+        factor.add_count(&Wide::unit_count());
         let (mut digits, mut big) = (Wide::<8>::unit_count(), BigUint::unit_count());
         for _ in 0..7 {
             let once = digits.clone();

@@ -273,7 +273,7 @@ fn layer_tables<C: Count>(
                     break;
                 }
                 match &mut sums[to as usize] {
-                    Some(sum) => *sum += count,
+                    Some(sum) => sum.add_count(count),
                     none => {
                         *none = Some(count.clone());
                         met.push(to);

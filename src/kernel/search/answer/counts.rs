@@ -50,30 +50,42 @@ pub fn count_orbits(all: &BigUint, kept: &BigUint, order: usize) -> BigUint {
     (all + kept * (order - 1)) / order
 }
 
-/// Raises each figure to that of some that are among these.
-fn raise_entries<K: Ord + Copy>(all: &mut BTreeMap<K, BigUint>, some: &BTreeMap<K, BigUint>) {
-    for (&key, n) in some {
-        let own = all.entry(key).or_default();
-        if *own < *n {
-            own.clone_from(n);
-        }
-    }
-}
-
 impl Counts {
+    /// Replaces each number by a function of it and of the number that others have of the same kind.
+    pub(in crate::search) fn combine_with(
+        &mut self,
+        others: &Counts,
+        of: &dyn Fn(&BigUint, &BigUint) -> BigUint,
+    ) {
+        fn each<K: Ord + Copy>(
+            own: &mut BTreeMap<K, BigUint>,
+            others: &BTreeMap<K, BigUint>,
+            of: &dyn Fn(&BigUint, &BigUint) -> BigUint,
+        ) {
+            for &key in others.keys() {
+                own.entry(key).or_default();
+            }
+            for (key, n) in own.iter_mut() {
+                *n = of(n, others.get(key).unwrap_or(&BigUint::ZERO));
+            }
+        }
+        self.total = of(&self.total, &others.total);
+        each(&mut self.by_mobility, &others.by_mobility, of);
+        each(&mut self.by_changes, &others.by_changes, of);
+        each(
+            &mut self.by_mobility_and_changes,
+            &others.by_mobility_and_changes,
+            of,
+        );
+        each(&mut self.by_redundant, &others.by_redundant, of);
+        each(&mut self.by_freedoms, &others.by_freedoms, of);
+    }
+
     /// Raises lower bounds to those of variants that are among these.
     pub fn raise_bounds(&mut self, some: &Counts) {
-        raise_entries(&mut self.by_mobility, &some.by_mobility);
-        raise_entries(&mut self.by_changes, &some.by_changes);
-        raise_entries(
-            &mut self.by_mobility_and_changes,
-            &some.by_mobility_and_changes,
-        );
-        raise_entries(&mut self.by_redundant, &some.by_redundant);
-        raise_entries(&mut self.by_freedoms, &some.by_freedoms);
+        self.combine_with(some, &|a, b| a.max(b).clone());
         let together = self.by_mobility.values().sum();
-        let total = std::mem::take(&mut self.total);
-        self.total = total.max(some.total.clone()).max(together);
+        self.total = std::mem::take(&mut self.total).max(together);
     }
 
     pub(in crate::search) fn add_variants(&mut self, mobility: i64, key: Key, count: &BigUint) {
@@ -87,85 +99,55 @@ impl Counts {
         *self.by_redundant.entry(key.internal()).or_default() += count;
         *self.by_freedoms.entry(key.freedoms()).or_default() += count;
     }
+}
 
-    /// Orbits of a symmetry, from all variants and the symmetric ones, as [`orbits`] has it.
-    pub(in crate::search) fn orbit_counts(mut self, symmetric: &Counts, order: usize) -> Counts {
-        let part = |n: &BigUint, kept: &BigUint| count_orbits(n, kept, order);
-        fn each<K: Ord>(
-            all: &mut BTreeMap<K, BigUint>,
-            fixed: &BTreeMap<K, BigUint>,
-            part: impl Fn(&BigUint, &BigUint) -> BigUint,
-        ) {
-            let none = BigUint::zero();
-            for (k, n) in all.iter_mut() {
-                *n = part(n, fixed.get(k).unwrap_or(&none));
-            }
+impl Question {
+    /// Returns the counts of the variants of a diagram; `filter` also applies the conditions on mobility and changes.
+    #[must_use]
+    pub fn count_variants(&self, diagram: &Diagram, filter: bool) -> Counts {
+        self.count_by_kind(diagram, filter, true)
+    }
+
+    /// Returns the same, without the counts by W and changes together unless `both` is true: with hundreds of joints there are thousands of
+    /// each, and millions of pairs.
+    pub(in crate::search) fn count_by_kind(
+        &self,
+        diagram: &Diagram,
+        filter: bool,
+        both: bool,
+    ) -> Counts {
+        let of = |freedoms, changes| {
+            let kinds = Kinds {
+                freedoms,
+                changes,
+                cost: false,
+            };
+            wanted_by(self, diagram, filter, kinds)
+        };
+        let by_changes = if both {
+            Some(Vec::new())
+        } else {
+            of(false, true)
+        };
+        let Some((by_freedoms, by_changes)) = of(true, both).zip(by_changes) else {
+            return Counts {
+                only_total: true,
+                total: count_total(self, diagram, filter),
+                ..Counts::default()
+            };
+        };
+        let mut counts = Counts::default();
+        for (key, count) in &by_freedoms {
+            counts.add_variants(self.mobility(*key), *key, count);
         }
-        self.total = part(&self.total, &symmetric.total);
-        each(&mut self.by_mobility, &symmetric.by_mobility, part);
-        each(&mut self.by_changes, &symmetric.by_changes, part);
-        each(
-            &mut self.by_mobility_and_changes,
-            &symmetric.by_mobility_and_changes,
-            part,
-        );
-        each(&mut self.by_redundant, &symmetric.by_redundant, part);
-        each(&mut self.by_freedoms, &symmetric.by_freedoms, part);
-        self
-    }
-}
-
-/// Returns the counts of a diagram's variants. With `filter`, applies the conditions on mobility and changes too.
-#[must_use]
-pub(crate) fn count_by_kind(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
-    let all = Kinds {
-        freedoms: true,
-        changes: true,
-        cost: false,
-    };
-    let Some(totals) = wanted_by(question, diagram, filter, all) else {
-        return only_total(question, diagram, filter);
-    };
-    let mut counts = Counts::default();
-    for (key, count) in &totals {
-        counts.add_variants(question.mobility(*key), *key, count);
-    }
-    counts
-}
-
-/// Returns the counts by W and by changes, but not by both: with hundreds of joints there are thousands of each, and millions of pairs. `filter` applies the conditions on mobility and changes too.
-#[must_use]
-pub(crate) fn count_sums(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
-    let of = |kinds| wanted_by(question, diagram, filter, kinds);
-    let by_freedoms = of(Kinds {
-        freedoms: true,
-        ..Kinds::default()
-    });
-    let by_changes = of(Kinds {
-        changes: true,
-        ..Kinds::default()
-    });
-    let Some((by_freedoms, by_changes)) = by_freedoms.zip(by_changes) else {
-        return only_total(question, diagram, filter);
-    };
-    let mut counts = Counts::default();
-    for (key, count) in &by_freedoms {
-        counts.add_variants(question.mobility(*key), *key, count);
-    }
-    counts.by_mobility_and_changes.clear();
-    counts.by_changes.clear();
-    for (key, count) in &by_changes {
-        *counts.by_changes.entry(key.changes()).or_default() += count;
-    }
-    counts
-}
-
-/// Returns the total alone, if there is no memory for counts by kind.
-fn only_total(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
-    Counts {
-        only_total: true,
-        total: count_total(question, diagram, filter),
-        ..Counts::default()
+        if !both {
+            counts.by_mobility_and_changes.clear();
+            counts.by_changes.clear();
+        }
+        for (key, count) in &by_changes {
+            *counts.by_changes.entry(key.changes()).or_default() += count;
+        }
+        counts
     }
 }
 

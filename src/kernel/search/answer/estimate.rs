@@ -9,7 +9,6 @@
 
 use crate::search::answer::by_tally::sample_of;
 use crate::search::answer::counts::count_total;
-use crate::search::answer::k_best::Assignment;
 use crate::search::build::at_most::{AtMost, at_most};
 use crate::search::build::orders::Orders;
 use crate::search::build::self_stress::Wanted;
@@ -84,101 +83,60 @@ const MARGIN: f64 = 1.2;
 /// The chance that the number lies above the interval, and that it lies below.
 const TAIL: f64 = 0.025;
 
-/// Samples of a larger set, of which some are drawn: they say how many more are needed.
-pub(in crate::search) struct SetSamples<'a> {
-    of: &'a AtMost,
-    at_most: BigUint,
-    /// The same as a number.
-    all: f64,
-    variants: Box<dyn Iterator<Item = Assignment> + 'a>,
+/// Estimates how many variants of a larger set are wanted, from samples: the first ones say how many more are needed. `filter` also applies
+/// the conditions on mobility and changes. Returns `None` if cancelled, if memory does not suffice, or if the set is too large for a
+/// floating-point number.
+///
+/// # Complexity
+/// O(samples · n · s²) field operations for n added freedoms and s self-stresses.
+fn estimate_count(
+    question: &Question,
+    of: &AtMost,
     seed: u64,
-    /// The odds against a sample being wanted, by the first of them.
-    odds: f64,
-}
-
-impl<'a> SetSamples<'a> {
-    /// Draws the first samples of a set. `filter` also applies the conditions on mobility and changes. Returns `None` if cancelled, if
-    /// memory does not suffice, or if the set is too large for a floating-point number.
-    ///
-    /// # Complexity
-    /// O(samples · n · s²) field operations for n added freedoms and s self-stresses.
-    pub(in crate::search) fn draw_pilot(
-        question: &'a Question,
-        of: &'a AtMost,
-        seed: u64,
-        filter: bool,
-        cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Option<Self> {
-        let at_most = count_total(question, &of.diagram, filter);
-        let all = at_most.to_f64().filter(|x| x.is_finite())?;
-        let variants = sample_of(question, &of.diagram, seed, filter);
-        let mut out = SetSamples {
-            of,
-            at_most,
-            all,
-            variants,
-            seed,
-            odds: 0.0,
-        };
-        let (drawn, found) = out.draw_samples(PILOT, cancelled)?;
-        if drawn > 0 {
-            out.odds = as_float(drawn - found) / as_float(found);
-        }
-        Some(out)
-    }
-
-    /// Draws samples. Returns how many were drawn and how many of them are wanted; none are drawn from an empty set.
-    fn draw_samples(
-        &mut self,
-        wanted: usize,
-        cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Option<(usize, usize)> {
+    filter: bool,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Option<Estimate> {
+    let at_most = count_total(question, &of.diagram, filter);
+    let all = at_most.to_f64().filter(|x| x.is_finite())?;
+    let mut variants = sample_of(question, &of.diagram, seed, filter);
+    // How many were drawn, and how many of them are wanted; none are drawn from an empty set.
+    let mut draw = |most: usize| {
         let (mut drawn, mut found) = (0, 0);
-        while drawn < wanted && self.all > 0.0 {
-            let few = BATCH.min(wanted - drawn);
-            let batch: Vec<_> = self.variants.by_ref().take(few).collect();
+        while drawn < most && all > 0.0 {
+            let few = BATCH.min(most - drawn);
+            let batch: Vec<_> = variants.by_ref().take(few).collect();
             if batch.is_empty() || cancelled() {
                 return None;
             }
             drawn += batch.len();
-            let of = self.of;
-            found += batch
-                .par_iter()
-                .filter(|v| of.has_variant(&v.choices))
-                .count();
+            let wanted = batch.par_iter().filter(|v| of.has_variant(&v.choices));
+            found += wanted.count();
         }
         Some((drawn, found))
-    }
-
-    /// Returns the number of further samples needed, as estimated from the first ones.
-    fn needed_samples(&self) -> usize {
-        let needed = (NORMAL / WITHIN).powi(2) * self.odds * MARGIN;
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "between the least and the most"
-        )]
-        let needed = needed.ceil() as usize;
-        needed.clamp(SAMPLES[0], SAMPLES[1])
-    }
-
-    /// Estimates the number of variants from new samples, as many as the pilot requires. Returns `None` if cancelled.
-    pub(in crate::search) fn estimate_count(
-        mut self,
-        cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Option<Estimate> {
-        let (drawn, found) = self.draw_samples(self.needed_samples(), cancelled)?;
-        let share = as_float(found) / as_float(drawn.max(1));
-        let deviation = (share * (1.0 - share) / as_float(drawn.max(1))).sqrt();
-        Some(Estimate {
-            mean: self.all * share,
-            standard_error: self.all * deviation,
-            between: confidence_interval(drawn, found).map(|x| self.all * x),
-            at_most: Some(self.at_most),
-            drawn: Drawn { of: drawn, found },
-            seed: self.seed,
-        })
-    }
+    };
+    let (first, wanted) = draw(PILOT)?;
+    // The odds against a sample being wanted.
+    let odds = match first {
+        0 => 0.0,
+        _ => as_float(first - wanted) / as_float(wanted),
+    };
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "between the least and the most"
+    )]
+    let needed = ((NORMAL / WITHIN).powi(2) * odds * MARGIN).ceil() as usize;
+    let (drawn, found) = draw(needed.clamp(SAMPLES[0], SAMPLES[1]))?;
+    let share = as_float(found) / as_float(drawn.max(1));
+    let deviation = (share * (1.0 - share) / as_float(drawn.max(1))).sqrt();
+    Some(Estimate {
+        mean: all * share,
+        standard_error: all * deviation,
+        between: confidence_interval(drawn, found).map(|x| all * x),
+        at_most: Some(at_most),
+        drawn: Drawn { of: drawn, found },
+        seed,
+    })
 }
 
 #[allow(clippy::cast_precision_loss, reason = "samples are few")]
@@ -247,8 +205,7 @@ pub(in crate::search) fn estimate_counts(
         }
         let filter = matches!(wanted, Wanted::Admissible);
         let of = at_most(question, order, limits, wanted, cancelled)?;
-        let samples = SetSamples::draw_pilot(question, &of, seed, filter, cancelled)?;
-        let found = samples.estimate_count(cancelled)?;
+        let found = estimate_count(question, &of, seed, filter, cancelled)?;
         Some(found.clamp_to_bounds(&count_total(question, diagram, filter), possible))
     };
     let first = estimate(&orders.determinate, Wanted::Determinate, determinate, None);

@@ -13,18 +13,17 @@ pub mod preferred;
 
 use crate::search::answer::counts::limited_kinds;
 use crate::search::answer::ideas::freedom_patterns::{Added, Pattern, Patterns, freedom_patterns};
-use crate::search::answer::ideas::least_freedoms::Less;
+use crate::search::answer::ideas::least_freedoms::{Less, minimal_variants};
 use crate::search::answer::ideas::preferred::change_weights;
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::{Key, Steps};
-use crate::search::answer::variants_in_order::{variant_key, variants_within};
+use crate::search::answer::variants_in_order::variants_within;
 use crate::search::build::Diagrams;
 use crate::search::diagram::{DEAD, Diagram};
 use crate::search::question::Question;
 use crate::search::question::space::{Variable, choice_name};
 use itertools::Itertools;
 use num_bigint::BigUint;
-use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Variants that differ only in which of some joints in series has which of the freedoms added.
@@ -48,33 +47,59 @@ const SORTED: usize = 24;
 /// Weights of places that take part in the order of ideas, in all.
 const WEIGHED: u64 = 64;
 
-/// Returns the variants that are minimal in what they add and cost, as a diagram. Returns all admissible ones if these are
-/// not known.
-pub(in crate::search) fn idea_variants<'d>(
-    question: &Question,
-    diagrams: &'d Diagrams,
-) -> Cow<'d, Diagram> {
-    match least_freedoms::minimal_diagram(question, diagrams, Less::Means) {
-        Some(least) => Cow::Owned(least),
-        None => Cow::Borrowed(diagrams.listed_diagram()),
+impl Question {
+    /// Returns the admissible variants that ideas consist of: those for which no other has only a part of their
+    /// freedoms and costs no more. Returns all if these are unknown.
+    #[must_use]
+    pub fn idea_variants(&self, diagrams: &Diagrams) -> Diagram {
+        let all = diagrams.listed_diagram();
+        minimal_variants(self, all, Less::Means).unwrap_or_else(|| all.clone())
     }
-}
 
-/// Returns the first `top` ideas among the admissible variants. A shorter list is the beginning of a longer one.
-///
-/// # Complexity
-/// That of the diagram of minimal variants. From each variant up to the last idea's cost, it takes only
-/// the part that differs in its pattern. Then a bounded search finds the shown variant of each idea in the groups of the first `top`. Each
-/// takes two passes over the part of the diagram that it uses.
-pub(crate) fn list_ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
-    let variants = idea_variants(question, diagrams);
-    ideas_in_steps(
-        question,
-        &IdeaBasis::of_question(question),
-        &variants,
-        top,
-        &mut 0,
-    )
+    /// Returns at most `top` first ideas, each of all minimal variants that give the same freedoms to the same
+    /// contours. A shorter list is the beginning of a longer one.
+    ///
+    /// # Complexity
+    /// That of the diagram of minimal variants. From each variant up to the last idea's cost, it takes only
+    /// the part that differs in its pattern. Then a bounded search finds the shown variant of each idea in the groups of the first `top`.
+    /// Each takes two passes over the part of the diagram that it uses.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+    /// let four_bar = ozols::built_in("four-bar")?;
+    /// let search = Search::new(exact_field(&four_bar, 0)?, &four_bar, Conditions::default())?;
+    /// let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    /// let ideas = search.list_ideas(&diagrams, 3);
+    /// // The first adds the three freedoms that remove σ = 3, and may add them in six ways.
+    /// assert_eq!((ideas[0].first.key.freedoms(), ideas[0].variants.to_string().as_str()), (4 + 3, "6"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn list_ideas(&self, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
+        self.ideas_among(&self.idea_basis(), &self.idea_variants(diagrams), top)
+    }
+
+    /// Returns the basis of the ideas in addition to variants and costs. Two searches with the same variants, costs and
+    /// basis have the same ideas.
+    #[must_use]
+    pub fn idea_basis(&self) -> IdeaBasis {
+        let names = |v: &Variable| {
+            let name = |c| choice_name(&self.mechanism, v.joints[0], c);
+            v.choices.iter().map(name).collect()
+        };
+        IdeaBasis {
+            patterns: freedom_patterns(self),
+            weights: change_weights(&self.mechanism, &self.space),
+            names: self.space.variables.iter().map(names).collect(),
+        }
+    }
+
+    /// Returns the ideas among the variants that [ideas consist of](Self::idea_variants), with this search's basis.
+    #[must_use]
+    pub fn ideas_among(&self, basis: &IdeaBasis, variants: &Diagram, top: usize) -> Vec<Idea> {
+        ideas_in_steps(self, basis, variants, top, &mut 0)
+    }
 }
 
 /// Data on which ideas depend, in addition to their variants and costs. They are: what each choice adds to which contours;
@@ -88,18 +113,6 @@ pub struct IdeaBasis {
 }
 
 impl IdeaBasis {
-    pub(in crate::search) fn of_question(question: &Question) -> IdeaBasis {
-        let names = |v: &Variable| {
-            let name = |c| choice_name(&question.mechanism, v.joints[0], c);
-            v.choices.iter().map(name).collect()
-        };
-        IdeaBasis {
-            patterns: freedom_patterns(question),
-            weights: change_weights(&question.mechanism, &question.space),
-            names: question.space.variables.iter().map(names).collect(),
-        }
-    }
-
     /// Returns how many kinds of joints a variant puts in.
     fn count_kinds(&self, v: &Assignment) -> usize {
         let chosen = self.names.iter().zip(&v.choices);
@@ -180,13 +193,15 @@ fn first_variants(
         };
         let mut seen = BTreeSet::new();
         let mut found: Vec<(CostGroup, Assignment)> = Vec::new();
-        let (list, mut ended) = variants_within(question, diagram, steps, slack, Box::new(enter));
+        let list = variants_within(question, diagram, steps, slack, Box::new(enter));
+        let mut ended = list.is_all();
         for v in list {
             if !seen.insert(patterns.idea_pattern(&v)) {
                 continue;
             }
+            let end = diagram.end_of(&v.choices).unwrap_or_default();
             let v = Assignment {
-                key: variant_key(question, diagram, &v.choices),
+                key: question.steps.variant_key(&v.choices, end),
                 ..v
             };
             let group = cost_group(question.steps.cost_in_milli(v.key.cost()), &found);

@@ -3,13 +3,11 @@
 //! They are found on ways down the diagram that the tally guides, so that no step is ever taken back: a step is possible exactly if the
 //! node it leads to has a completion with the key that is left.
 
-use crate::search::answer::count::Count;
 use crate::search::answer::count_tables::Tally;
 use crate::search::answer::keys::{Key, Steps};
 use crate::search::diagram::{DEAD, Diagram};
+use crate::search::question::Question;
 use num_bigint::BigUint;
-use num_traits::Zero;
-use std::fmt;
 
 /// A variant found on a diagram.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,10 +23,10 @@ pub struct Assignment {
 /// # Complexity
 /// Some passes over the part of the diagram that variants of that cost use. Then O(variables · choices) look-ups per
 /// variant, or fewer if many variants have the same beginning. Memory is that of the tables, for any length of the list.
-pub(crate) struct Cheapest<'d, C> {
+pub(crate) struct Cheapest<'d> {
     diagram: &'d Diagram,
     steps: &'d Steps,
-    tally: Tally<C>,
+    tally: Tally<u128>,
     /// Keys to come.
     keys: std::vec::IntoIter<Key>,
     /// The key whose variants are being given.
@@ -72,30 +70,20 @@ struct Place {
     next: usize,
 }
 
-impl<C: Count> fmt::Debug for Cheapest<'_, C> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Cheapest")
-            .field("key", &self.key)
-            .field("path", &self.path)
-            .field("left", &self.left)
-            .finish_non_exhaustive()
-    }
-}
-
-impl<'d, C: Count> Cheapest<'d, C> {
-    /// Returns the first variants whose key passes `wanted`, which it does not above the ceiling. They are in the order of `rank`, which
-    /// sorts by cost first. If `enter` refuses a partial variant, its completions are skipped.
-    pub(crate) fn new<R: Ord>(
+impl<'d> Cheapest<'d> {
+    /// Returns the first variants whose key passes `wanted`, in the order of the question. If `enter` refuses a partial variant, its
+    /// completions are skipped. The tables take no more than a quarter of the memory.
+    pub(crate) fn new(
+        question: &Question,
         diagram: &'d Diagram,
         steps: &'d Steps,
         limits: ListLimits,
-        wanted: impl Fn(Key) -> bool,
-        rank: impl Fn(Key) -> R,
-        bytes: usize,
+        wanted: &dyn Fn(Key) -> bool,
         enter: Enter<'d>,
     ) -> Self {
+        let bytes = question.conditions.memory / 4;
         let (tally, mut keys, is_all) = tally_enough(diagram, steps, limits, wanted, bytes);
-        keys.sort_by_key(|&k| rank(k));
+        keys.sort_by_key(|&k| question.sort_rank(k));
         Cheapest {
             diagram,
             steps,
@@ -119,7 +107,7 @@ impl<'d, C: Count> Cheapest<'d, C> {
     }
 }
 
-impl<C: Count> Iterator for Cheapest<'_, C> {
+impl Iterator for Cheapest<'_> {
     type Item = Assignment;
 
     fn next(&mut self) -> Option<Assignment> {
@@ -172,7 +160,7 @@ impl<C: Count> Iterator for Cheapest<'_, C> {
     }
 }
 
-impl<C> Cheapest<'_, C> {
+impl Cheapest<'_> {
     fn current_variant(&mut self) -> Option<Assignment> {
         self.left -= 1;
         Some(Assignment {
@@ -184,13 +172,13 @@ impl<C> Cheapest<'_, C> {
 
 /// Finds the cheapest variants up to the requested number. Returns the tally, the keys, and true if there are no others.
 /// Tallies fewer if their tables would take more than `bytes`.
-fn tally_enough<C: Count>(
+fn tally_enough(
     diagram: &Diagram,
     steps: &Steps,
     limits: ListLimits,
-    wanted: impl Fn(Key) -> bool,
+    wanted: &dyn Fn(Key) -> bool,
     bytes: usize,
-) -> (Tally<C>, Vec<Key>, bool) {
+) -> (Tally<u128>, Vec<Key>, bool) {
     let mut found = (Tally { tables: Vec::new() }, Vec::new(), true);
     let Some(floor) = least_from(diagram, steps)[0][0] else {
         return found;
@@ -203,19 +191,19 @@ fn tally_enough<C: Count>(
     let ceiling = ceiling.min(chosen.unwrap_or(0) * steps.keys.len() as u64 + end.unwrap_or(0));
     let (top, mut slack) = match limits.reach {
         Reach::Variants(top) => (BigUint::from(top), 0),
-        Reach::Above(slack) => (BigUint::zero(), slack),
+        Reach::Above(slack) => (BigUint::ZERO, slack),
     };
     loop {
         let limit = floor.saturating_add(slack).min(ceiling);
         let within = |p: &Option<u64>| p.map_or(0, |p| limit.saturating_sub(p));
         let bound = least.iter().map(|l| l.iter().map(within).collect());
         let bound: Vec<Vec<u64>> = bound.collect();
-        let Some(tally) = Tally::<C>::new(diagram, steps, Some(&bound), bytes) else {
+        let Some(tally) = Tally::new(diagram, steps, Some(&bound), bytes) else {
             found.2 = true;
             return found;
         };
         let whole = tally.total_counts().iter().filter(|(k, _)| wanted(*k));
-        let count: BigUint = whole.clone().map(|(_, c)| c.to_big_uint()).sum();
+        let count: BigUint = whole.clone().map(|(_, c)| *c).sum();
         let keys = whole.map(|(k, _)| *k).collect();
         found = (tally, keys, limit >= ceiling);
         if count >= top || found.2 {

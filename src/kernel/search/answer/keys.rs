@@ -141,6 +141,14 @@ impl Steps {
         Key(Key::of_redundancy(r).0 | Key::new(cost, 0, 0).0)
     }
 
+    /// Returns the properties of a variant, from its choices and its redundant constraints.
+    #[must_use]
+    pub fn variant_key(&self, choices: &[usize], redundancy: Redundancy) -> Key {
+        let keys = self.keys.iter().zip(choices);
+        let sum: u128 = keys.map(|(keys, &c)| keys[c].0).sum();
+        Key(sum + self.redundancy_key(redundancy).0)
+    }
+
     /// Returns these steps with only the wanted kinds kept.
     #[must_use]
     pub(crate) fn keep_kinds(&self, kinds: Kinds) -> Steps {

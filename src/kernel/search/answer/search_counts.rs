@@ -1,6 +1,6 @@
 //! The counts of a search: determinate variants, admissible ones, and those that keep the motion throughout.
 
-use crate::search::answer::counts::{Counts, count_by_kind, count_sums};
+use crate::search::answer::counts::{Counts, count_orbits};
 use crate::search::build::{Diagrams, build_diagrams};
 use crate::search::diagram::{Diagram, Stop};
 use crate::search::question::Question;
@@ -21,31 +21,18 @@ impl SearchCounts {
     /// Returns the counts of the variants of some diagrams.
     #[must_use]
     pub fn of_diagrams(question: &Question, diagrams: &Diagrams) -> SearchCounts {
-        SearchCounts::count_each(diagrams, &|diagram, filter| {
-            count_by_kind(question, diagram, filter)
-        })
+        SearchCounts::by_kind(question, diagrams, true)
     }
 
-    /// Returns the same without those by W and changes both, which take by far the longest where there are hundreds of joints.
+    /// Returns the same, without those by W and changes together unless `both` is true: these take by far the longest where there are
+    /// hundreds of joints.
     #[must_use]
-    pub fn sums_of(question: &Question, diagrams: &Diagrams) -> SearchCounts {
-        SearchCounts::count_each(diagrams, &|diagram, filter| {
-            count_sums(question, diagram, filter)
-        })
-    }
-
-    fn count_each(
-        diagrams: &Diagrams,
-        of: &(dyn Fn(&Diagram, bool) -> Counts + Sync),
-    ) -> SearchCounts {
-        let ((determinate, admissible), lasting) = rayon::join(
-            || {
-                rayon::join(
-                    || of(&diagrams.determinate, false),
-                    || of(&diagrams.admissible, true),
-                )
-            },
-            || diagrams.lasting.as_ref().ok().map(|d| of(d, true)),
+    pub fn by_kind(question: &Question, diagrams: &Diagrams, both: bool) -> SearchCounts {
+        let of = |diagram: &Diagram, filter| question.count_by_kind(diagram, filter, both);
+        let lasting = || diagrams.lasting.as_ref().ok().map(|d| of(d, true));
+        let (determinate, (admissible, lasting)) = rayon::join(
+            || of(&diagrams.determinate, false),
+            || rayon::join(|| of(&diagrams.admissible, true), lasting),
         );
         SearchCounts {
             determinate,
@@ -53,29 +40,15 @@ impl SearchCounts {
             lasting,
         }
     }
-
-    /// Returns the counts of orbits of a symmetry, from all variants and the symmetric ones, by Burnside's lemma.
-    pub(in crate::search) fn orbit_counts(
-        self,
-        symmetric: &SearchCounts,
-        order: usize,
-    ) -> SearchCounts {
-        let lasting = self.lasting.zip(symmetric.lasting.as_ref());
-        SearchCounts {
-            determinate: self.determinate.orbit_counts(&symmetric.determinate, order),
-            admissible: self.admissible.orbit_counts(&symmetric.admissible, order),
-            lasting: lasting.map(|(all, kept)| all.orbit_counts(kept, order)),
-        }
-    }
 }
 
-/// Computes the counts of orbits from those of all variants, by a search for the symmetric ones. Also returns why that search ended.
+/// Computes the counts of orbits from those of all variants, by a search for the symmetric ones and Burnside's lemma. Also returns why that search ended.
 ///
 /// # Errors
 /// Returns an error in the same cases as [`Question::new`].
 pub fn orbit_counts(
     question: &Question,
-    all: SearchCounts,
+    mut all: SearchCounts,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Result<(SearchCounts, [Stop; 2]), SearchError> {
     let conditions = Conditions {
@@ -91,7 +64,16 @@ pub fn orbit_counts(
     )?;
     let diagrams = build_diagrams(&symmetric, cancelled, &mut |_| {});
     let order = question.mechanism.search.symmetry_order();
-    let counts = all.orbit_counts(&SearchCounts::of_diagrams(&symmetric, &diagrams), order);
+    let kept = SearchCounts::of_diagrams(&symmetric, &diagrams);
+    let orbits = |all: &mut Counts, kept: &Counts| {
+        all.combine_with(kept, &|n, kept| count_orbits(n, kept, order));
+    };
+    orbits(&mut all.determinate, &kept.determinate);
+    orbits(&mut all.admissible, &kept.admissible);
+    all.lasting = all.lasting.zip(kept.lasting).map(|(mut all, kept)| {
+        orbits(&mut all, &kept);
+        all
+    });
     let stops = [diagrams.determinate.stop, diagrams.admissible.stop];
-    Ok((counts, stops))
+    Ok((all, stops))
 }

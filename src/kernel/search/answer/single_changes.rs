@@ -14,6 +14,7 @@ use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, JointId, JointOption, Mechanism, StateId};
 use crate::redundancy::analysis::exact_field;
 use crate::redundancy::stress::stress_basis;
+use crate::redundancy::stress_loads::JointWrenches;
 use crate::search::question::cost::CostTable;
 use crate::search::reduce::self_stress_space::is_contained;
 use std::cmp::Reverse;
@@ -96,13 +97,14 @@ pub fn single_changes(mechanism: &Mechanism, state: StateId) -> Result<Suggestio
         let all = joint_twists(exact, &motion, &o.frame, &o.joint_type)?;
         Ok(all.into_iter().map(|(_, t)| t).collect())
     };
-    let carried = Carried::new(exact, mechanism, &closure, &stresses);
+    let borne = JointWrenches::new(exact, mechanism, &closure)?;
     let (mut tried, mut list) = (0, Vec::new());
     for j in joints {
         let joint = &mechanism.joints[j];
         let present = present_option(joint);
         let own = twists(&present)?;
-        let wrenches = carried.wrenches_at(j);
+        let borne = stresses.iter().map(|s| borne.coordinates_at(s, j));
+        let wrenches = Echelon::from_vectors(exact.field(), borne).reduced_rows();
         for (to, unloading) in possible_changes(joint, &present, state, usual) {
             let mut columns = twists(to.as_ref().unwrap_or(&present))?;
             if !is_contained(exact.field(), &[&own, &columns]) {
@@ -182,52 +184,4 @@ fn power_rank(exact: &ExactField, wrenches: &[Vec<Residue>], twists: &[Vec<Resid
     let f = exact.field();
     let powers = |t: &Vec<Residue>| wrenches.iter().map(|w| f.dot(w, t)).collect::<Vec<_>>();
     Echelon::from_vectors(f, twists.iter().map(powers)).rank()
-}
-
-/// The wrenches that each joint transmits under the self-stresses.
-struct Carried<'a> {
-    exact: &'a ExactField,
-    stresses: &'a [Vec<Residue>],
-    dim: usize,
-    /// The contours that pass each joint, and how.
-    passes: Vec<Vec<(usize, bool)>>,
-}
-
-impl<'a> Carried<'a> {
-    fn new(
-        exact: &'a ExactField,
-        mechanism: &Mechanism,
-        closure: &Closure<Residue>,
-        stresses: &'a [Vec<Residue>],
-    ) -> Self {
-        let mut passes = vec![Vec::new(); mechanism.joints.len()];
-        for (i, c) in closure.contours.iter().enumerate() {
-            for &(j, forward) in &c.joints {
-                passes[j].push((i, forward));
-            }
-        }
-        Carried {
-            exact,
-            stresses,
-            dim: closure.dim,
-            passes,
-        }
-    }
-
-    /// Returns a basis of the wrenches that a joint carries, at most six.
-    fn wrenches_at(&self, joint: JointId) -> Vec<Vec<Residue>> {
-        let (f, dim) = (self.exact.field(), self.dim);
-        let mut span = Echelon::new(f);
-        for stress in self.stresses {
-            if span.rank() == dim {
-                break;
-            }
-            let mut wrench = vec![0; dim];
-            for &(i, forward) in &self.passes[joint] {
-                f.add_or_subtract(&mut wrench, &stress[i * dim..(i + 1) * dim], forward);
-            }
-            span.insert(&wrench);
-        }
-        span.reduced_rows()
-    }
 }

@@ -5,7 +5,6 @@ use crate::geom::exact::ExactError;
 use crate::model::mechanism::{JointId, StateId};
 use crate::redundancy::motion::motion_basis;
 use crate::search::answer::counts::Counts;
-use crate::search::answer::counts::count_by_kind;
 use crate::search::build::build_diagrams;
 use crate::search::check::brute::Matrices;
 use crate::search::diagram::Stop;
@@ -84,7 +83,7 @@ pub fn find_obstacles(question: &Question) -> Result<Hopeless, ExactError> {
 /// Returns an error in the same cases as [`Question::new`].
 ///
 /// # Complexity
-/// One search for each condition. For redundancies, one or two for each bit of the smallest number that is enough.
+/// One search for each condition. For redundant constraints, one or two for each bit of the smallest number that is enough.
 pub fn find_relaxations(
     question: &Question,
     nodes: usize,
@@ -96,38 +95,58 @@ pub fn find_relaxations(
         nodes: nodes.saturating_mul(MORE).max(NODES),
         cancelled,
     };
-    let mut out = Vec::new();
-    // Independent drives are not searched with redundant constraints left.
-    if !question.mechanism.search.locks_drives {
-        out.extend(easing.ease_redundant()?);
-    }
-    if let Some(state) = conditions.state {
-        out.extend(easing.in_state(state)?);
-    }
-    if conditions.max_mobility.is_some()
-        && let Some(c) = easing.count_if_any(&|r| r.max_mobility = None)?
-        && let Some((least, n)) = c.by_mobility.iter().next()
-    {
-        out.push((Relaxation::Mobility(*least), n.clone()));
-    }
-    if conditions.max_changes.is_some()
-        && let Some(c) = easing.count_if_any(&|r| r.max_changes = None)?
-        && let Some((least, n)) = c.by_changes.iter().next()
-    {
-        out.push((Relaxation::Changes(*least), n.clone()));
-    }
-    if !question.mechanism.search.drives.is_empty()
-        && let Some(c) = easing.count_if_any(&|r| r.drives = Drives::Free)?
-    {
-        out.push((Relaxation::FreeDrives, c.total));
-    }
-    if conditions.keep_output
-        && let Some(c) =
-            easing.count_if_any(&|r| (r.keep_output, r.drives) = (false, Drives::Free))?
-    {
-        out.push((Relaxation::OutputChange, c.total));
-    }
+    let state = conditions.state;
+    let mut out = easing.ease_bounds()?;
+    let mut ease = |is_asked: bool, change: Change<'_>, found: &dyn Fn(Counts) -> Found| {
+        if is_asked && let Some(c) = easing.count_eased(change)?.filter(|c| !c.total.is_zero()) {
+            out.extend(found(c));
+        }
+        Ok::<_, SearchError>(())
+    };
+    ease(
+        state.is_some_and(|s| s.hold_objects),
+        &|c| in_state(c, &|s| s.hold_objects = false),
+        &|c| Some((Relaxation::LooseObject, c.total)),
+    )?;
+    ease(
+        conditions.max_mobility.is_some(),
+        &|c| c.max_mobility = None,
+        &|mut c| {
+            c.by_mobility
+                .pop_first()
+                .map(|(w, n)| (Relaxation::Mobility(w), n))
+        },
+    )?;
+    ease(
+        conditions.max_changes.is_some(),
+        &|c| c.max_changes = None,
+        &|mut c| {
+            c.by_changes
+                .pop_first()
+                .map(|(k, n)| (Relaxation::Changes(k), n))
+        },
+    )?;
+    ease(
+        !question.mechanism.search.drives.is_empty(),
+        &|c| c.drives = Drives::Free,
+        &|c| Some((Relaxation::FreeDrives, c.total)),
+    )?;
+    ease(
+        conditions.keep_output,
+        &|c| (c.keep_output, c.drives) = (false, Drives::Free),
+        &|c| Some((Relaxation::OutputChange, c.total)),
+    )?;
     Ok(out)
+}
+
+/// An eased condition, and what it leaves.
+type Found = Option<(Relaxation, BigUint)>;
+/// How conditions are eased.
+type Change<'a> = &'a dyn Fn(&mut Conditions);
+
+/// Changes the conditions in the searched state, if there is one.
+fn in_state(conditions: &mut Conditions, change: &dyn Fn(&mut InState)) {
+    conditions.state.iter_mut().for_each(change);
 }
 
 /// A question that is asked again with conditions eased.
@@ -140,7 +159,7 @@ struct Easing<'a> {
 
 impl Easing<'_> {
     /// Returns the counts under other conditions; `None` if it takes too many nodes.
-    fn count_eased(&self, change: &dyn Fn(&mut Conditions)) -> Result<Option<Counts>, SearchError> {
+    fn count_eased(&self, change: Change<'_>) -> Result<Option<Counts>, SearchError> {
         let question = self.question;
         let mut eased = question.conditions.clone();
         eased.nodes = eased.nodes.min(self.nodes);
@@ -149,15 +168,7 @@ impl Easing<'_> {
         let other = Question::new(question.exact.clone(), question.mechanism.clone(), eased)?;
         let built = build_diagrams(&other, self.cancelled, &mut |_| {});
         let whole = built.stop_reason() == Stop::Exhausted;
-        Ok(whole.then(|| count_by_kind(&other, built.listed_diagram(), true)))
-    }
-
-    /// Returns the counts under other conditions; `None` if it takes too many nodes or if there are no variants.
-    fn count_if_any(
-        &self,
-        change: &dyn Fn(&mut Conditions),
-    ) -> Result<Option<Counts>, SearchError> {
-        Ok(self.count_eased(change)?.filter(|c| !c.total.is_zero()))
+        Ok(whole.then(|| other.count_variants(built.listed_diagram(), true)))
     }
 
     /// Returns bounds beyond what is allowed. Diagrams grow with them, so the first is only a little larger. Each step is
@@ -170,34 +181,42 @@ impl Easing<'_> {
         bounds.take_while(move |b| *b < 2 * rows)
     }
 
-    /// Tries more redundant constraints within the mechanism.
-    fn ease_redundant(&self) -> Result<Option<(Relaxation, BigUint)>, SearchError> {
-        for bound in self.further_bounds(self.question.conditions.max_redundant) {
-            let Some(c) = self.count_eased(&|r| r.max_redundant = bound)? else {
-                break;
-            };
-            if let Some((least, n)) = c.by_redundant.iter().next() {
-                return Ok(Some((Relaxation::Redundant(*least), n.clone())));
-            }
-        }
-        Ok(None)
+    /// Returns the least sufficient bounds of redundant constraints: within the mechanism, added by the searched state, and harmful.
+    fn ease_bounds(&self) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
+        let Question {
+            conditions,
+            mechanism,
+            ..
+        } = self.question;
+        // Independent drives are not searched with redundant constraints left.
+        let within = (!mechanism.search.locks_drives).then_some(conditions.max_redundant);
+        let external = conditions.state.and_then(|s| s.max_external);
+        let harmful = conditions.state.and_then(|s| s.max_harmful);
+        let found = [
+            self.least_bound(within, Relaxation::Redundant, &|c, n| c.max_redundant = n)?,
+            self.least_bound(external, Relaxation::External, &|c, n| {
+                in_state(c, &|s| s.max_external = Some(n));
+            })?,
+            self.least_bound(harmful, Relaxation::Harmful, &|c, n| {
+                in_state(c, &|s| s.max_harmful = Some(n));
+            })?,
+        ];
+        Ok(found.into_iter().flatten().collect())
     }
 
-    /// Returns the least sufficient bound of the searched state, with the number of variants. The bound is doubled, then the gap is halved.
+    /// Returns the least sufficient bound beyond the one that is allowed, with the number of variants. The bound is doubled, then the gap is
+    /// halved.
     fn least_bound(
         &self,
-        allowed: u32,
-        set: &dyn Fn(&mut InState, u32),
-    ) -> Result<Option<(u32, BigUint)>, SearchError> {
-        let with = |most: u32| {
-            self.count_eased(&|r: &mut Conditions| {
-                if let Some(s) = &mut r.state {
-                    set(s, most);
-                }
-            })
+        allowed: Option<u32>,
+        how: fn(u32) -> Relaxation,
+        set: &dyn Fn(&mut Conditions, u32),
+    ) -> Result<Found, SearchError> {
+        let with = |most: u32| self.count_eased(&|c| set(c, most));
+        let Some(mut few) = allowed else {
+            return Ok(None);
         };
-        let mut few = allowed;
-        for bound in self.further_bounds(allowed) {
+        for bound in self.further_bounds(few) {
             let Some(mut found) = with(bound)? else {
                 break;
             };
@@ -213,32 +232,8 @@ impl Easing<'_> {
                     None => few = middle,
                 }
             }
-            return Ok(Some((enough, found.total)));
+            return Ok(Some((how(enough), found.total)));
         }
         Ok(None)
-    }
-
-    /// Tries more redundant constraints that the searched state adds, and objects that it does not hold.
-    fn in_state(&self, state: InState) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
-        let mut out = Vec::new();
-        if let Some(allowed) = state.max_external {
-            let found = self.least_bound(allowed, &|s, most| s.max_external = Some(most))?;
-            out.extend(found.map(|(n, total)| (Relaxation::External(n), total)));
-        }
-        if let Some(allowed) = state.max_harmful {
-            let found = self.least_bound(allowed, &|s, most| s.max_harmful = Some(most))?;
-            out.extend(found.map(|(n, total)| (Relaxation::Harmful(n), total)));
-        }
-        let loose = |r: &mut Conditions| {
-            if let Some(s) = &mut r.state {
-                s.hold_objects = false;
-            }
-        };
-        if state.hold_objects
-            && let Some(c) = self.count_if_any(&loose)?
-        {
-            out.push((Relaxation::LooseObject, c.total));
-        }
-        Ok(out)
     }
 }

@@ -1,6 +1,7 @@
 //! The result of a search by singular values: ranges of counts, and the certain variants.
 
-use super::judge::{Judged, Standing};
+use super::in_state::Answer;
+use super::judge::Judged;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::estimate::confidence_interval;
 use crate::search::answer::k_best::Assignment;
@@ -104,15 +105,14 @@ pub(super) struct Met {
 impl Met {
     pub(super) fn add_judged(&mut self, judged: &Judged) {
         self.looked += 1;
-        for (standing, counts) in [
-            (&judged.determinate, &mut self.determinate),
-            (&judged.admissible, &mut self.admissible),
+        for (answer, [sure, doubtful]) in [
+            (judged.determinate, &mut self.determinate),
+            (judged.admissible, &mut self.admissible),
         ] {
-            let [sure, doubtful] = counts;
-            match standing {
-                Standing::No => {}
-                Standing::Sure(key) => *sure.entry(*key).or_default() += 1,
-                Standing::Doubtful(key) => *doubtful.entry(*key).or_default() += 1,
+            match answer {
+                Answer::No => {}
+                Answer::Yes => *sure.entry(judged.key).or_default() += 1,
+                Answer::Perhaps => *doubtful.entry(judged.key).or_default() += 1,
             }
         }
     }

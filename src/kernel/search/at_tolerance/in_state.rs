@@ -48,96 +48,66 @@ const ALL: [Freedom; 6] = [
     Freedom::Tz,
 ];
 
-/// The figures of a variant in a state, each with its minimum and maximum.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct InStateSeen {
+/// Judges a variant, as a mechanism, by the conditions on a state to which it adds redundant constraints in the range `external`. Also returns
+/// the smallest possible number of harmful ones. `None` if the arithmetic fails.
+///
+/// A self-stress is harmless if it does no work in any motion that would relieve harmful ones. So the number of harmful
+/// ones is a difference of ranks of J, with these motions added and without them.
+///
+/// # Complexity
+/// A decomposition for each face. Another one for each body to be held and each link that may hold it.
+pub(super) fn judge_in_state(
+    question: &Question,
+    realized: &Mechanism,
+    asked: &InState,
     external: [i32; 2],
-    harmful: [u32; 2],
-    held: Answer,
-}
-
-impl InStateSeen {
-    /// Examines a variant as a mechanism. Returns `None` if the arithmetic fails.
-    ///
-    /// A self-stress is harmless if it does no work in any motion that would relieve harmful ones. So the number of harmful
-    /// ones is a difference of ranks of J, with these motions added and without them.
-    ///
-    /// # Complexity
-    /// A decomposition for each face. Another one for each body to be held and each link that may hold it.
-    pub(super) fn of(
-        question: &Question,
-        realized: &Mechanism,
-        state: StateId,
-        external: [i32; 2],
-        digits: Digits,
-    ) -> Option<InStateSeen> {
-        let own = rank_range(realized, state, digits)?;
-        let added: Vec<JointId> = realized.joints_added_in(state).collect();
-        let fixed = |j: &JointId| realized.joints[*j].joint_type == JointType::Fixed;
-        let faces: Vec<JointId> = added.iter().copied().filter(fixed).collect();
-        let with = |freed: &dyn Fn(JointId) -> Option<Vec<Freedom>>| {
-            let mut freer = realized.clone();
-            for &j in &added {
-                if let Some(freedoms) = freed(j) {
-                    freer.parts_mut().joints[j].joint_type = JointType::Custom(freedoms);
-                }
+    digits: Digits,
+) -> Option<(Answer, u32)> {
+    let own = rank_range(realized, asked.state, digits)?;
+    let added: Vec<JointId> = realized.joints_added_in(asked.state).collect();
+    let fixed = |j: &JointId| realized.joints[*j].joint_type == JointType::Fixed;
+    let faces: Vec<JointId> = added.iter().copied().filter(fixed).collect();
+    let with = |freed: &dyn Fn(JointId) -> Option<Vec<Freedom>>| {
+        let mut freer = realized.clone();
+        for &j in &added {
+            if let Some(freedoms) = freed(j) {
+                freer.parts_mut().joints[j].joint_type = JointType::Custom(freedoms);
             }
-            rank_range(&freer, state, digits)
-        };
-        let all = if faces.is_empty() {
-            vec![with(&|_| Some(ALL.to_vec()))?]
-        } else {
-            let judged = |at: JointId| {
-                with(&|j| {
-                    faces.contains(&j).then(|| {
-                        if j == at {
-                            vec![Freedom::Tz, Freedom::Rx, Freedom::Ry]
-                        } else {
-                            vec![Freedom::Tz]
-                        }
-                    })
-                })
-            };
-            faces.iter().map(|&f| judged(f)).collect::<Option<_>>()?
-        };
-        let int = |x: usize| u32::try_from(x).unwrap_or(u32::MAX);
-        let harmful = |least: bool| {
-            let of = |r: &RankRange| {
-                if least {
-                    int(r.least.saturating_sub(own.most))
-                } else {
-                    int(r.most.saturating_sub(own.least))
-                }
-            };
-            all.iter().map(of).min().unwrap_or(0)
-        };
-        let mut held = Answer::Yes;
-        for grasp in &question.grasps {
-            held = held.combine_with(holds(realized, state, grasp, own, digits)?);
         }
-        Some(InStateSeen {
-            external,
-            harmful: [harmful(true), harmful(false)],
-            held,
-        })
-    }
-
-    /// Returns true if it meets the conditions on variants in the state.
-    pub(super) fn meets_conditions(&self, asked: &InState) -> Answer {
-        let below = |[least, most]: [i64; 2], limit: Option<u32>| {
-            let fits = |x: i64| limit.is_none_or(|l| x <= i64::from(l));
-            // Of a range the figure itself is doubtful.
-            Answer::of(least == most && fits(most), fits(least))
+        rank_range(&freer, asked.state, digits)
+    };
+    let all = if faces.is_empty() {
+        vec![with(&|_| Some(ALL.to_vec()))?]
+    } else {
+        let judged = |at: JointId| {
+            with(&|j| {
+                faces.contains(&j).then(|| {
+                    if j == at {
+                        vec![Freedom::Tz, Freedom::Rx, Freedom::Ry]
+                    } else {
+                        vec![Freedom::Tz]
+                    }
+                })
+            })
         };
-        below(self.external.map(i64::from), asked.max_external)
-            .combine_with(below(self.harmful.map(i64::from), asked.max_harmful))
-            .combine_with(self.held)
+        faces.iter().map(|&f| judged(f)).collect::<Option<_>>()?
+    };
+    let int = |x: usize| u32::try_from(x).unwrap_or(u32::MAX);
+    let least = |r: &RankRange| int(r.least.saturating_sub(own.most));
+    let most = |r: &RankRange| int(r.most.saturating_sub(own.least));
+    let least = all.iter().map(least).min().unwrap_or(0);
+    let harmful = [least, all.iter().map(most).min().unwrap_or(0)];
+    let below = |[least, most]: [i64; 2], limit: Option<u32>| {
+        let fits = |x: i64| limit.is_none_or(|l| x <= i64::from(l));
+        // Of a range the figure itself is doubtful.
+        Answer::of(least == most && fits(most), fits(least))
+    };
+    let mut answer = below(external.map(i64::from), asked.max_external)
+        .combine_with(below(harmful.map(i64::from), asked.max_harmful));
+    for grasp in &question.grasps {
+        answer = answer.combine_with(holds(realized, asked.state, grasp, own, digits)?);
     }
-
-    /// Returns the external and harmful redundant constraints, the smallest numbers possible.
-    pub(super) fn figures(&self) -> (i32, u32) {
-        (self.external[0], self.harmful[0])
-    }
+    Some((answer, least))
 }
 
 fn rank_range(m: &Mechanism, state: StateId, digits: Digits) -> Option<RankRange> {

@@ -1,35 +1,23 @@
 //! One variant judged by its singular values.
 
-use super::in_state::{Answer, InStateSeen};
+use super::in_state::{Answer, judge_in_state};
 use crate::geom::exact::ExactError;
-use crate::model::mechanism::StateId;
-use crate::rank::numeric::Elimination;
 use crate::search::answer::keys::Key;
-use crate::search::check::brute;
 use crate::search::check::brute_float::{Approximate, RankedRows};
 use crate::search::check::variant_mechanism;
 use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::question::Question;
 use crate::search::question::rounded_rank::{Digits, RankRange};
 
-/// Whether a variant meets some conditions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Standing {
-    /// It does not.
-    No,
-    /// It does.
-    Sure(Key),
-    /// It may, and has this key if it does.
-    Doubtful(Key),
-}
-
 /// The result for a variant.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Judged {
     /// Whether it has few enough redundant constraints.
-    pub(super) determinate: Standing,
+    pub(super) determinate: Answer,
     /// Whether it meets every condition.
-    pub(super) admissible: Standing,
+    pub(super) admissible: Answer,
+    /// Its properties, if it does: of a range of ranks the smallest numbers of redundant constraints.
+    pub(super) key: Key,
 }
 
 /// Judges the variants of a question.
@@ -43,7 +31,7 @@ pub(super) struct Judge<'s> {
 
 impl<'s> Judge<'s> {
     pub(super) fn new(question: &'s Question, digits: Digits) -> Result<Judge<'s>, ExactError> {
-        let all = Approximate::new(question, Elimination::Svd, digits.tolerance)?;
+        let all = Approximate::new(question, &question.mechanism, true)?;
         let nothing = vec![0; question.space.variables.len()];
         let unknown = RankRange::from_values(&[], digits);
         let present = all
@@ -73,71 +61,61 @@ impl<'s> Judge<'s> {
     /// # Complexity
     /// One decomposition where it has too many redundant constraints, two otherwise; with a state some more.
     pub(super) fn judge_variant(&self, choices: &[usize]) -> Judged {
-        let limit = self.question.conditions.max_redundant;
-        let Some(free) = self.all.rank_range(choices, RankedRows::Free, self.digits) else {
-            let key = self.standing_of(choices, false, Redundancy::default());
-            return Judged {
-                determinate: key,
-                admissible: key,
-            };
-        };
+        self.judge_ranks(choices).unwrap_or_else(|| Judged {
+            determinate: Answer::Perhaps,
+            admissible: Answer::Perhaps,
+            key: self.key_with(choices, Redundancy::default()),
+        })
+    }
+
+    /// Judges a variant; `None` if the singular values do not converge.
+    fn judge_ranks(&self, choices: &[usize]) -> Option<Judged> {
+        let conditions = &self.question.conditions;
+        let free = self
+            .all
+            .rank_range(choices, RankedRows::Free, self.digits)?;
         let int = |x: usize| u32::try_from(x).unwrap_or(u32::MAX);
-        let [rows, _] = self.all.count_equations();
+        let [rows, ..] = self.all.row_counts();
         let (least, most) = (int(rows - free.most), int(rows - free.least));
-        if least > limit {
-            return Judged {
-                determinate: Standing::No,
-                admissible: Standing::No,
-            };
-        }
-        let sure = most <= limit;
-        let within = Redundancy {
+        let mut found = Redundancy {
             internal: least,
             ..Redundancy::default()
         };
         // Of a range the figures are doubtful too.
-        let determinate = self.standing_of(choices, sure && least == most, within);
-        let doubtful = || Judged {
-            determinate,
-            admissible: self.standing_of(choices, false, within),
-        };
-        let mut good = Answer::of(sure && least == most, true);
-        if self.question.conditions.keep_output {
-            let Some(keeps) = self.keeps_output(choices, free) else {
-                return doubtful();
+        let is_possible = least <= conditions.max_redundant;
+        let determinate = Answer::of(is_possible && least == most, is_possible);
+        let mut admissible = determinate;
+        if is_possible {
+            if conditions.keep_output {
+                admissible = admissible.combine_with(self.keeps_output(choices, free)?);
+            }
+            let wanted = |internal| {
+                let redundancy = Redundancy { internal, ..found };
+                self.question.is_wanted(self.key_with(choices, redundancy))
             };
-            good = good.combine_with(keeps);
+            let mut which = least..=most.min(conditions.max_redundant);
+            let wanted = Answer::of(which.clone().all(wanted), which.any(wanted));
+            admissible = admissible.combine_with(wanted);
         }
-        let wanted = |internal| self.is_wanted(choices, internal);
-        let mut which = least..=most.min(limit);
-        good = good.combine_with(Answer::of(which.clone().all(wanted), which.any(wanted)));
-        let mut found = within;
-        let asked = self.question.conditions.state;
-        if let Some(asked) = asked.filter(|_| good != Answer::No) {
-            let Some(seen) = self.in_state(asked.state, choices, free) else {
-                return doubtful();
-            };
-            good = good.combine_with(seen.meets_conditions(&asked));
-            (found.external, found.harmful) = seen.figures();
+        if let Some(asked) = conditions.state
+            && admissible != Answer::No
+        {
+            let realized = variant_mechanism::realize_variant(self.question, choices);
+            let external = self.external_range(choices, free)?;
+            let (question, digits) = (self.question, self.digits);
+            let (meets, harmful) = judge_in_state(question, &realized, &asked, external, digits)?;
+            admissible = admissible.combine_with(meets);
+            (found.external, found.harmful) = (external[0], harmful);
         }
-        Judged {
+        Some(Judged {
             determinate,
-            admissible: match good {
-                Answer::No => Standing::No,
-                Answer::Perhaps => self.standing_of(choices, false, found),
-                Answer::Yes => self.standing_of(choices, true, found),
-            },
-        }
+            admissible,
+            key: self.key_with(choices, found),
+        })
     }
 
-    /// Returns the standing of a variant with some redundancy that meets the conditions, certainly or possibly.
-    fn standing_of(&self, choices: &[usize], sure: bool, redundancy: Redundancy) -> Standing {
-        let key = brute::variant_key(self.question, choices, redundancy);
-        if sure {
-            Standing::Sure(key)
-        } else {
-            Standing::Doubtful(key)
-        }
+    fn key_with(&self, choices: &[usize], redundancy: Redundancy) -> Key {
+        self.question.steps.variant_key(choices, redundancy)
     }
 
     /// Returns whether the kept links of a variant move as in the present mechanism; `None` if the singular values do not converge.
@@ -153,29 +131,17 @@ impl<'s> Judge<'s> {
         ))
     }
 
-    /// Returns true if a variant meets the conditions on mobility and changes with `internal` redundant constraints.
-    fn is_wanted(&self, choices: &[usize], internal: u32) -> bool {
-        let redundancy = Redundancy {
-            internal,
-            ..Redundancy::default()
-        };
-        self.question
-            .is_wanted(brute::variant_key(self.question, choices, redundancy))
-    }
-
-    /// Returns the figures of a variant in the searched state; `None` if the singular values do not converge.
-    fn in_state(&self, state: StateId, choices: &[usize], free: RankRange) -> Option<InStateSeen> {
-        let [rows, state_rows] = self.all.count_equations();
-        let realized = variant_mechanism::realize_variant(self.question, choices);
+    /// Returns the range of the redundant constraints that the searched state adds; `None` if the singular values do not converge.
+    fn external_range(&self, choices: &[usize], free: RankRange) -> Option<[i32; 2]> {
+        let [rows, _, state_rows] = self.all.row_counts();
         let of_state = self
             .all
             .rank_range(choices, RankedRows::State, self.digits)?;
         let surplus = |rank: usize| to_i32(state_rows) - to_i32(rank);
-        let external = [
+        Some([
             surplus(of_state.most) - to_i32(rows) + to_i32(free.least),
             surplus(of_state.least) - to_i32(rows) + to_i32(free.most),
-        ];
-        InStateSeen::of(self.question, &realized, state, external, self.digits)
+        ])
     }
 }
 

@@ -35,7 +35,8 @@ pub struct Seen {
 impl Seen {
     /// Creates the result from three ranks: of the free state's rows, of these with the kept links' motion, and of the
     /// searched state's.
-    pub(in crate::search) fn of_ranks(
+    #[must_use]
+    pub fn of_ranks(
         [free, _, state]: [usize; 3],
         [rank, with_kept]: [usize; 2],
         of_state: Option<usize>,
@@ -257,14 +258,6 @@ fn count_judged(
         .try_reduce(BTreeMap::new, merge)
 }
 
-/// Returns the properties of a variant, from its choices and its redundant constraints.
-#[must_use]
-pub fn variant_key(question: &Question, choices: &[usize], redundancy: Redundancy) -> Key {
-    let keys = question.steps.keys.iter().zip(choices);
-    let sum: u128 = keys.map(|(keys, &c)| keys[c].0).sum();
-    Key(sum + question.steps.redundancy_key(redundancy).0)
-}
-
 /// Returns the properties of a variant, and whether it is admissible except for the conditions on W and changes ([`Question::is_wanted`]).
 /// Returns `None` if it is not determinate. The searched state is examined on the mechanism of the variant.
 ///
@@ -294,5 +287,5 @@ pub fn judge_variant(
             && !beyond(found.harmful.into(), s.max_harmful)
             && loose_bodies(&question.exact, &realized, s.state, &question.grasps)?.is_empty();
     }
-    Ok(Some((variant_key(question, choices, found), good)))
+    Ok(Some((question.steps.variant_key(choices, found), good)))
 }

@@ -5,9 +5,7 @@ use crate::closure::twist::MotionSpace;
 use crate::geom::Reals;
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::rank::numeric::Elimination;
 use crate::rank::numeric::scaling::Scaling;
-use crate::search::check::brute::Seen;
 use crate::search::check::full_matrices::{RowLayout, Spans, WrittenOut};
 use crate::search::question::Question;
 use crate::search::question::rounded_rank::{Digits, RankRange};
@@ -25,42 +23,25 @@ pub enum RankedRows {
     State,
 }
 
-/// The closure matrices of all variants in double precision. For singular values they are scaled, so that units do not matter.
+/// The closure matrices of all variants in double precision.
 #[derive(Debug)]
-pub struct Approximate {
-    elimination: Elimination,
-    tolerance: f64,
-    all: WrittenOut<f64>,
-}
+pub struct Approximate(WrittenOut<f64>);
 
 impl Approximate {
-    /// Writes the columns of a search's space out, for ranks within a tolerance.
-    ///
-    /// # Errors
-    /// Returns no error if the search has an exact image.
-    pub fn new(
-        question: &Question,
-        elimination: Elimination,
-        tolerance: f64,
-    ) -> Result<Approximate, ExactError> {
-        Approximate::of_mechanism(question, &question.mechanism, elimination, tolerance)
-    }
-
-    /// Creates the same matrices for another mechanism with the same links, joints and options in other places, such as the
-    /// rounded coordinates of a file.
+    /// Writes out the columns of a search's space, with the places of a mechanism that has the same links, joints and options, such as the
+    /// rounded coordinates of a file. For singular values they are `scaled`, so that units do not matter.
     ///
     /// # Errors
     /// Returns an error if a coordinate has no value.
-    pub fn of_mechanism(
+    pub fn new(
         question: &Question,
         mechanism: &Mechanism,
-        elimination: Elimination,
-        tolerance: f64,
+        scaled: bool,
     ) -> Result<Approximate, ExactError> {
         let motion = MotionSpace::new(&Reals, &mechanism.mode)?;
         let state = question.space.state.unwrap_or(StateId::FREE);
         let present = Closure::new(&Reals, mechanism, state)?;
-        let scaling = (elimination == Elimination::Svd).then(|| Scaling::of_closure(&present));
+        let scaling = scaled.then(|| Scaling::of_closure(&present));
         let of_joint = |choice: &Choice, j: JointId| {
             let joint = &mechanism.joints[j];
             let option = &joint.options[choice.option];
@@ -82,42 +63,16 @@ impl Approximate {
                     .collect::<Result<_, ExactError>>()?,
             );
         }
-        Ok(Approximate {
-            elimination,
-            tolerance,
-            all: WrittenOut::new(&Reals, question, &RowLayout::new(question), &spans),
-        })
+        let layout = RowLayout::new(question);
+        let all = WrittenOut::new(&Reals, question, &layout, &spans);
+        Ok(Approximate(all))
     }
 
-    /// Looks at one variant; `None` where the arithmetic fails.
-    ///
-    /// # Complexity
-    /// Two or three decompositions.
+    /// Returns the numbers of rows: closure equations of the free state, those of the kept links' motion, and closure equations of the
+    /// searched state.
     #[must_use]
-    pub fn look_at(&self, choices: &[usize]) -> Option<Seen> {
-        let [_, kept, state] = self.all.rows;
-        let rank = |rows: RankedRows| {
-            let matrix = self.variant_matrix(choices, rows);
-            let rank = self.elimination.rank_of(&matrix, self.tolerance);
-            rank.ok().map(|r| r.rank)
-        };
-        let inside = rank(RankedRows::Free)?;
-        let with_kept = match kept {
-            0 => inside,
-            _ => rank(RankedRows::WithKept)?,
-        };
-        let of_state = match state {
-            0 => None,
-            _ => Some(rank(RankedRows::State)?),
-        };
-        Some(Seen::of_ranks(self.all.rows, [inside, with_kept], of_state))
-    }
-
-    /// Returns the number of closure equations of the free state, and of the searched one.
-    #[must_use]
-    pub fn count_equations(&self) -> [usize; 2] {
-        let [free, _, state] = self.all.rows;
-        [free, state]
+    pub fn row_counts(&self) -> [usize; 3] {
+        self.0.rows
     }
 
     /// Returns the rank of some rows of a variant, as far as the digits decide it. `None` if the singular values do not
@@ -136,14 +91,16 @@ impl Approximate {
         Some(RankRange::from_values(&values, digits))
     }
 
-    fn variant_matrix(&self, choices: &[usize], rows: RankedRows) -> Matrix {
-        let [free, kept, state] = self.all.rows;
+    /// Returns the matrix of some rows of a variant.
+    #[must_use]
+    pub fn variant_matrix(&self, choices: &[usize], rows: RankedRows) -> Matrix {
+        let [free, kept, state] = self.0.rows;
         let (from, to) = match rows {
             RankedRows::Free => (0, free),
             RankedRows::WithKept => (0, free + kept),
             RankedRows::State => (free + kept, free + kept + state),
         };
-        let chosen: Vec<&Vec<f64>> = self.all.variant_columns(choices).collect();
+        let chosen: Vec<&Vec<f64>> = self.0.variant_columns(choices).collect();
         Matrix::from_fn(to - from, chosen.len(), |r, c| chosen[c][from + r])
     }
 }

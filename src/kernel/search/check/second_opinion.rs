@@ -5,7 +5,7 @@
 //! law: options that only add freedoms remove no mobility. After one contradiction, no count is called exact.
 
 use crate::geom::exact::ExactError;
-use crate::rank::numeric::Elimination;
+use crate::rank::method::to_i64;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::k_best::Assignment;
 use crate::search::at_tolerance::{any_choices, choices_of_number};
@@ -108,37 +108,9 @@ impl SecondOpinion {
 /// motion.
 struct Expected {
     choices: Vec<usize>,
-    internal: usize,
-    motion: Option<usize>,
-    in_state: Option<usize>,
-}
-
-impl Expected {
-    /// Returns the figures of a variant by exact arithmetic.
-    fn expect_looked(question: &Question, exact: &Matrices, choices: Vec<usize>) -> Expected {
-        let seen = exact.look_at(&choices);
-        let of_state = i64::from(seen.external) + i64::from(seen.internal);
-        let of_state = usize::try_from(of_state).ok();
-        Expected {
-            choices,
-            internal: seen.internal as usize,
-            motion: Some(seen.motion),
-            in_state: question.conditions.state.and(of_state),
-        }
-    }
-
-    /// Returns the figures of a counted variant.
-    fn expect_counted(question: &Question, v: Assignment) -> Expected {
-        let of_state = i64::from(v.key.external()) + i64::from(v.key.internal());
-        let of_state = usize::try_from(of_state).ok();
-        let keep_output = question.conditions.keep_output;
-        Expected {
-            choices: v.choices,
-            internal: v.key.internal() as usize,
-            motion: keep_output.then(|| question.present_motion()),
-            in_state: question.conditions.state.and(of_state),
-        }
-    }
+    internal: u32,
+    external: i32,
+    motion: usize,
 }
 
 /// The result of one variant's singular values.
@@ -146,16 +118,6 @@ struct Said {
     undecided: bool,
     narrowest: f64,
     against: Option<Contradiction>,
-}
-
-impl Asked {
-    fn count_said(said: &[Said]) -> Asked {
-        Asked {
-            asked: said.len(),
-            undecided: said.iter().filter(|s| s.undecided).count(),
-            contradicted: said.iter().filter(|s| s.against.is_some()).count(),
-        }
-    }
 }
 
 /// Returns the number of variants of each kind that are checked. Small mechanisms have more, so that the check takes about half a second
@@ -199,15 +161,23 @@ pub fn second_opinion(
     seed: u64,
 ) -> Result<SecondOpinion, ExactError> {
     let digits = written.digits;
-    let of_file = Approximate::of_mechanism(
-        question,
-        &written.mechanism,
-        Elimination::Svd,
-        digits.tolerance,
-    )?;
+    let of_file = Approximate::new(question, &written.mechanism, true)?;
     let exact = Matrices::new(question);
-    let looked = |choices: Vec<usize>| Expected::expect_looked(question, &exact, choices);
-    let counted = |v: Assignment| Expected::expect_counted(question, v);
+    let looked = |choices: Vec<usize>| {
+        let seen = exact.look_at(&choices);
+        Expected {
+            choices,
+            internal: seen.internal,
+            external: seen.external,
+            motion: seen.motion,
+        }
+    };
+    let counted = |v: Assignment| Expected {
+        choices: v.choices,
+        internal: v.key.internal(),
+        external: v.key.external(),
+        motion: question.present_motion(),
+    };
     let nothing = vec![0; question.space.variables.len()];
     let mut first = vec![looked(nothing.clone())];
     first.extend(listed.into_iter().map(counted));
@@ -226,7 +196,11 @@ pub fn second_opinion(
             .into_par_iter()
             .filter_map(|e| compare_variant(question, &of_file, e, digits))
             .collect();
-        let asked = Asked::count_said(&said);
+        let asked = Asked {
+            asked: said.len(),
+            undecided: said.iter().filter(|s| s.undecided).count(),
+            contradicted: said.iter().filter(|s| s.against.is_some()).count(),
+        };
         for s in said {
             narrowest = narrowest.min(s.narrowest);
             if contradiction.is_none() {
@@ -281,15 +255,16 @@ fn compare_variant(
     e: Expected,
     digits: Digits,
 ) -> Option<Said> {
-    let [rows, state_rows] = of_file.count_equations();
+    let [rows, _, state_rows] = of_file.row_counts();
     let free = of_file.rank_range(&e.choices, RankedRows::Free, digits)?;
-    let rank = rows.saturating_sub(e.internal);
+    let rank = rows.saturating_sub(e.internal as usize);
     let mut all = vec![(free, rank)];
-    if let Some(motion) = e.motion.filter(|_| question.conditions.keep_output) {
+    if question.conditions.keep_output {
         let kept = of_file.rank_range(&e.choices, RankedRows::WithKept, digits)?;
-        all.push((kept, rank + motion));
+        all.push((kept, rank + e.motion));
     }
-    if let Some(redundant) = e.in_state {
+    let in_state = usize::try_from(i64::from(e.external) + i64::from(e.internal));
+    if let (Some(_), Ok(redundant)) = (question.conditions.state, in_state) {
         let state = of_file.rank_range(&e.choices, RankedRows::State, digits)?;
         all.push((state, state_rows.saturating_sub(redundant)));
     }
@@ -316,8 +291,4 @@ fn compare_variant(
         narrowest,
         against,
     })
-}
-
-fn to_i64(x: usize) -> i64 {
-    i64::try_from(x).unwrap_or(i64::MAX)
 }

@@ -6,7 +6,6 @@
 //! count, every list and every sample drawn from them is equal too.
 
 use crate::search::answer::search_counts::SearchCounts;
-use crate::search::answer::variants_in_order::cheapest_variants;
 use crate::search::build::Diagrams;
 use crate::search::build::build_in;
 use crate::search::build::orders::variable_orders;
@@ -92,14 +91,16 @@ pub fn compare_primes(
         return Ok(Verdict::Interrupted);
     }
     let [a, b] = diagrams;
-    let equal = same(&a.determinate, &b.determinate)
-        && same(&a.admissible, &b.admissible)
+    let equal = have_same_edges(&a.determinate, &b.determinate)
+        && have_same_edges(&a.admissible, &b.admissible)
         && match (&a.lasting, &b.lasting) {
-            (Ok(a), Ok(b)) => same(a, b),
+            (Ok(a), Ok(b)) => have_same_edges(a, b),
             (a, b) => a.is_err() && b.is_err(),
         }
         && match (&a.cheapest, &b.cheapest) {
-            (Some(a), Some(b)) => a.cost_milli == b.cost_milli && same(&a.diagram, &b.diagram),
+            (Some(a), Some(b)) => {
+                a.cost_milli == b.cost_milli && have_same_edges(&a.diagram, &b.diagram)
+            }
             (a, b) => a.is_none() && b.is_none(),
         }
         && questions[0].steps.keys == questions[1].steps.keys;
@@ -107,7 +108,11 @@ pub fn compare_primes(
         return Ok(Verdict::Agree);
     }
     let [first, second] = [0, 1].map(|i| SearchCounts::of_diagrams(questions[i], diagrams[i]));
-    let best = |i: usize| cheapest_variants(questions[i], diagrams[i], top).collect_vec();
+    let best = |i: usize| {
+        questions[i]
+            .cheapest_variants(diagrams[i], top)
+            .collect_vec()
+    };
     if best(0) != best(1) {
         return Err(make_disagreement(questions, [&first, &second]));
     }
@@ -146,7 +151,8 @@ pub fn primes(questions: [&Question; 2]) -> [u64; 2] {
 }
 
 /// Returns true if two diagrams have the same nodes, edges and terminals.
-fn same(a: &Diagram, b: &Diagram) -> bool {
+#[must_use]
+pub fn have_same_edges(a: &Diagram, b: &Diagram) -> bool {
     a.terminals == b.terminals
         && a.layers.len() == b.layers.len()
         && a.layers

@@ -3,16 +3,15 @@
 //! Nothing of the diagram takes part: not its prime, not its order, not its merging of nodes, not its contours' steps.
 //! Only the options' frames and the contour basis are shared.
 
-use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::{Closure, CouplingRow};
 use crate::geom::Reals;
 use crate::geom::exact::ExactError;
 use crate::model::joint_type::CoupledFreedom;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::modular;
+use crate::rank::method::to_i64;
 use crate::rank::numeric::{Elimination, NumericRank};
 use crate::search::answer::k_best::Assignment;
-use crate::search::check::brute;
 use crate::search::check::other_poses::over_stroke;
 use crate::search::check::other_poses::{OverStroke, Stroke};
 use crate::search::check::variant_mechanism::lock_links;
@@ -22,7 +21,6 @@ use crate::search::question::Question;
 use crate::search::question::kept::driven_in_variant;
 use rayon::prelude::*;
 use serde::Serialize;
-use std::collections::BTreeMap;
 
 /// Variants that get a second opinion by default.
 pub const CHECKED: usize = 1000;
@@ -163,13 +161,6 @@ impl Summary {
     }
 }
 
-/// Contours of the variants that have unloading joints at the same places.
-struct Shape {
-    free: Vec<Contour>,
-    locked: Option<Vec<Contour>>,
-    state: Option<(StateId, Vec<Contour>)>,
-}
-
 /// Analyses variants by singular values, and in the poses of a stroke if one is given, in parallel. If cancelled, returns only the first of
 /// them.
 ///
@@ -183,18 +174,10 @@ pub fn certify_variants(
     stroke: Option<&Stroke>,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Vec<Certified> {
-    let mut shapes: BTreeMap<Vec<bool>, Shape> = BTreeMap::new();
-    for v in variants.iter().filter(|_| opinions) {
-        shapes
-            .entry(inserted_joints(question, &v.choices))
-            .or_insert_with(|| contour_shape(question, &realize_variant(question, &v.choices)));
-    }
     let one = |variant: Assignment| {
         let m = realize_variant(question, &variant.choices);
         let second = if opinions {
-            let shape = shapes.get(&inserted_joints(question, &variant.choices));
-            let opinion = shape.and_then(|s| form_opinion(question, &variant, &m, s));
-            opinion.map_or(Second::Failed, Second::Given)
+            form_opinion(question, &variant, &m).map_or(Second::Failed, Second::Given)
         } else {
             Second::Unasked
         };
@@ -209,24 +192,6 @@ pub fn certify_variants(
     let all = variants.into_par_iter().with_min_len(4).map(unless);
     let all: Vec<Option<Certified>> = all.collect();
     all.into_iter().map_while(|c| c).collect()
-}
-
-/// Returns true for each variable at which an unloading joint is inserted.
-fn inserted_joints(question: &Question, choices: &[usize]) -> Vec<bool> {
-    let variables = question.space.variables.iter().zip(choices);
-    variables
-        .map(|(v, &c)| v.choices.get(c).is_some_and(|c| c.unloading.is_some()))
-        .collect()
-}
-
-fn contour_shape(question: &Question, realized: &Mechanism) -> Shape {
-    let lock = || contour_basis(&lock_links(question, realized), StateId::FREE);
-    let state = question.conditions.state.map(|s| s.state);
-    Shape {
-        free: contour_basis(realized, StateId::FREE),
-        locked: question.conditions.keep_output.then(lock),
-        state: state.map(|s| (s, contour_basis(realized, s))),
-    }
 }
 
 /// Returns a warning if singular values contradict exact arithmetic on the mechanism as built. `None` if they agree, do not
@@ -257,11 +222,10 @@ pub fn warning_of_present(question: &Question) -> Result<Option<String>, ExactEr
         harmful: 0,
     };
     let choices = vec![0; question.space.variables.len()];
-    let key = brute::variant_key(question, &choices, redundancy);
+    let key = question.steps.variant_key(&choices, redundancy);
     let present = Assignment { choices, key };
     let m = realize_variant(question, &present.choices);
-    let said =
-        form_opinion(question, &present, &m, &contour_shape(question, &m)).filter(|o| !o.agree);
+    let said = form_opinion(question, &present, &m).filter(|o| !o.agree);
     Ok(said.map(|o| {
         format!(
             "warning: of the mechanism as built singular values say W = {}, σ = {}, and exact arithmetic W = {}, σ = {internal} \
@@ -275,34 +239,27 @@ pub fn warning_of_present(question: &Question) -> Result<Option<String>, ExactEr
     }))
 }
 
-fn form_opinion(
-    question: &Question,
-    variant: &Assignment,
-    m: &Mechanism,
-    shape: &Shape,
-) -> Option<Opinion> {
-    let (free, f) = decompose_state(question, m, StateId::FREE, &shape.free)?;
-    let rows = |contours: &[Contour], state: StateId| {
-        to_i64(contours.len() * question.space.dim + m.couplings_in(state).count())
-    };
-    let redundant = rows(&shape.free, StateId::FREE) - to_i64(free.rank);
-    let output = match &shape.locked {
-        None => None,
-        Some(contours) => {
-            let drives = driven_in_variant(&question.mechanism, m)?;
-            let locked = real_closure(&lock_links(question, m), StateId::FREE, contours)?;
-            let rank = numeric_rank(question, &with_locks(locked, &drives)?)?.rank;
-            Some(rank.saturating_sub(free.rank))
-        }
+fn form_opinion(question: &Question, variant: &Assignment, m: &Mechanism) -> Option<Opinion> {
+    let closure = Closure::new(&Reals, m, StateId::FREE).ok()?;
+    let free = numeric_rank(question, &closure)?;
+    let (f, redundant) = (closure.columns.len(), surplus(&closure, &free));
+    let output = if question.conditions.keep_output {
+        let drives = driven_in_variant(&question.mechanism, m)?;
+        let locked = Closure::new(&Reals, &lock_links(question, m), StateId::FREE).ok()?;
+        let rank = numeric_rank(question, &with_locks(locked, &drives)?)?.rank;
+        Some(rank.saturating_sub(free.rank))
+    } else {
+        None
     };
     let (mut conditioning, mut dropped) = (free.kept, free.dropped);
-    let external = match &shape.state {
+    let external = match question.conditions.state {
         None => None,
-        Some((s, contours)) => {
-            let (state, _) = decompose_state(question, m, *s, contours)?;
+        Some(s) => {
+            let closure = Closure::new(&Reals, m, s.state).ok()?;
+            let state = numeric_rank(question, &closure)?;
             conditioning = conditioning.min(state.kept);
             dropped = dropped.max(state.dropped);
-            Some(rows(contours, *s) - to_i64(state.rank) - redundant)
+            Some(surplus(&closure, &state) - redundant)
         }
     };
     let key = variant.key;
@@ -323,19 +280,9 @@ fn form_opinion(
     })
 }
 
-/// Returns the rank of J of a state by singular values, with the number of columns.
-fn decompose_state(
-    question: &Question,
-    m: &Mechanism,
-    state: StateId,
-    contours: &[Contour],
-) -> Option<(NumericRank, usize)> {
-    let closure = real_closure(m, state, contours)?;
-    Some((numeric_rank(question, &closure)?, closure.columns.len()))
-}
-
-fn real_closure(m: &Mechanism, state: StateId, contours: &[Contour]) -> Option<Closure<f64>> {
-    Closure::with_contours(&Reals, m, state, contours.to_vec()).ok()
+/// Returns the number of redundant constraints.
+fn surplus(closure: &Closure<f64>, rank: &NumericRank) -> i64 {
+    to_i64(closure.rows()) - to_i64(rank.rank)
 }
 
 fn numeric_rank(question: &Question, closure: &Closure<f64>) -> Option<NumericRank> {
@@ -354,8 +301,4 @@ fn with_locks(mut closure: Closure<f64>, drives: &[CoupledFreedom]) -> Option<Cl
         closure.couplings.push(CouplingRow { entries });
     }
     Some(closure)
-}
-
-fn to_i64(x: usize) -> i64 {
-    i64::try_from(x).unwrap_or(i64::MAX)
 }

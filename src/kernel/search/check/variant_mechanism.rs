@@ -6,19 +6,27 @@ use crate::model::mechanism::{
 };
 use crate::search::question::Question;
 
+/// Returns for each joint of the searched mechanism its option in a variant, the unloading joint put in series with it, and whether it is a
+/// joint that the searched state adds.
+#[must_use]
+pub fn chosen_options(question: &Question, choices: &[usize]) -> Vec<(usize, Option<usize>, bool)> {
+    let mut chosen = vec![(0, None, false); question.mechanism.joints.len()];
+    for (variable, &choice) in question.space.variables.iter().zip(choices) {
+        if let Some(c) = variable.choices.get(choice) {
+            for &j in &variable.joints {
+                chosen[j.index()] = (c.option, c.unloading, variable.external);
+            }
+        }
+    }
+    chosen
+}
+
 /// Returns the mechanism of a variant. Joints keep their places in the list. Unloading joints and their links follow all
 /// others. An unloading joint of a contact exists in every state, as its link does.
 #[must_use]
 pub fn realize_variant(question: &Question, choices: &[usize]) -> Mechanism {
     let old = &question.mechanism;
-    let mut chosen: Vec<(usize, Option<usize>, bool)> = vec![(0, None, false); old.joints.len()];
-    for (variable, &choice) in question.space.variables.iter().zip(choices) {
-        if let Some(c) = variable.choices.get(choice) {
-            for &j in &variable.joints {
-                chosen[j] = (c.option, c.unloading, variable.external);
-            }
-        }
-    }
+    let chosen = chosen_options(question, choices);
     let stays = |l| {
         old.joints_in(StateId::FREE)
             .any(|j| old.joints[j].links.contains(&l))
@@ -68,6 +76,7 @@ pub fn realize_variant(question: &Question, choices: &[usize]) -> Mechanism {
         expected: Vec::new(),
         claims: Vec::new(),
         assumed: old.assumed.clone(),
+        tables: old.tables.clone(),
     })
 }
 

@@ -3,11 +3,10 @@
 //! A redesign works if its outputs and its drives move together as they do in the mechanism as built. The motions of the outputs alone are
 //! not enough: a bush in place of a lead screw leaves the table its one motion, but the motor then spins without moving it.
 
-use crate::closure::coupling::in_plane;
-use crate::closure::drive::driven_in;
+use crate::closure::drive::{driven_freedoms, driven_in};
 use crate::linalg::modp::Residue;
-use crate::model::joint_type::{CoupledFreedom, Freedom};
-use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use crate::model::joint_type::CoupledFreedom;
+use crate::model::mechanism::{LinkId, Mechanism, StateId};
 pub use crate::search::question::conditions::Drives;
 use crate::search::question::conditions::{Conditions, SearchError};
 use std::sync::Arc;
@@ -46,7 +45,9 @@ impl Followed {
         let independent = conditions.drives == Drives::Independent;
         let freedoms = match conditions.drives {
             Drives::Kept | Drives::Independent if conditions.keep_output => {
-                driven_freedoms(mechanism)
+                let driven = driven_freedoms(mechanism, StateId::FREE).into_iter();
+                let followed = driven.map(|(joint, freedom)| CoupledFreedom { joint, freedom });
+                followed.collect()
             }
             _ => Vec::new(),
         };
@@ -86,25 +87,4 @@ pub(in crate::search) fn driven_in_variant(
         Some(CoupledFreedom { freedom, ..*drive })
     };
     mechanism.search.drives.iter().map(of).collect()
-}
-
-/// Returns the freedoms that drives of the free state move, one for each driven joint that moves in the mechanism's space.
-#[must_use]
-pub fn driven_freedoms(mechanism: &Mechanism) -> Vec<CoupledFreedom> {
-    let driven = |joint: JointId| {
-        let freedom = mechanism.joints[joint].driven_freedom()?;
-        Some(CoupledFreedom { joint, freedom })
-    };
-    let all = mechanism.joints_in(StateId::FREE).filter_map(driven);
-    all.filter_map(|d| in_space(mechanism, d)).collect()
-}
-
-/// Returns a driven freedom, or where the mechanism's plane does not have it and the file does not name it, the first one that it has.
-fn in_space(mechanism: &Mechanism, driven: CoupledFreedom) -> Option<CoupledFreedom> {
-    let joint = &mechanism.joints[driven.joint];
-    let others = joint.joint_type.freedoms().iter().copied();
-    let others = others.filter(|_| joint.drive_freedom.is_none());
-    let mut all = std::iter::once(driven.freedom).chain(others);
-    let found = all.find(|&f: &Freedom| in_plane(mechanism, driven.joint, f));
-    found.map(|freedom| CoupledFreedom { freedom, ..driven })
 }

@@ -1,9 +1,8 @@
 //! The symbols of joints, in the joints' own frames.
 
+use crate::closure::drive::driven_freedoms;
 use crate::draw::prelude::*;
 use crate::draw::symbol::pieces::{PaperPose, Piece};
-use crate::motion::pose::Pose;
-use crate::rank::stroke::request::drive_or_any;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -75,9 +74,9 @@ pub(crate) fn shapes_extent(shapes: &[Shape]) -> Rect {
 
 /// Returns the joints whose drive slides them without turning, each with the axis of its frame.
 pub(crate) fn driven_slides(m: &Mechanism, state: StateId) -> Vec<(JointId, usize)> {
-    let driven = m.joints_in(state).filter(|&j| m.joints[j].drive);
+    let driven = driven_freedoms(m, state).into_iter();
     driven
-        .filter_map(|j| Some((j, slide_axis_of(driven_freedom(m, state, j)?)?)))
+        .filter_map(|(j, f)| Some((j, slide_axis_of(f)?)))
         .collect()
 }
 
@@ -89,25 +88,6 @@ fn slide_axis_of(freedom: Freedom) -> Option<usize> {
         Freedom::Tz => Some(2),
         Freedom::Rx | Freedom::Ry | Freedom::Rz | Freedom::Screw => None,
     }
-}
-
-/// Returns the freedom that a drive moves. If the file leaves it open between a turn and a slide, returns the one that moves
-/// the mechanism.
-fn driven_freedom(m: &Mechanism, state: StateId, joint: JointId) -> Option<Freedom> {
-    let of = &m.joints[joint];
-    let open = of
-        .joint_type
-        .freedoms()
-        .iter()
-        .filter(|f| of.may_drive(**f));
-    let open: Vec<Freedom> = open.copied().collect();
-    let slides = open.iter().filter(|f| slide_axis_of(**f).is_some()).count();
-    if slides == 0 || slides == open.len() {
-        return open.first().copied();
-    }
-    let pose = Pose::of_file(m, state).ok()?;
-    let (column, _) = drive_or_any(m, &pose, state, Some(&of.id)).ok()?;
-    Some(pose.columns[column].freedom)
 }
 
 /// Returns the arrow around a driving pair that turns. It is not a full circle, because that means a second joint.

@@ -63,10 +63,7 @@ function makeColumns() {
       { better: 1, log: true, show: power, table: Boolean(drivesHeld) });
     add("output-error", "error, mm", "output error in mm from clearances", work.output_error_mm,
       { show: short, table: shown("output-error") });
-    if (work.ranked) {
-      add("score", "score", "weighted score", work.ranked.total, { show: short });
-      add("front", "front", "Pareto front", work.ranked.front);
-    }
+    if (work.ranked) add("score", "score", "weighted score", work.ranked.total, { show: short });
   }
   const places = Array.from({ length: total }, (_, i) => i + 1);
   add("place", "№", "place in the list", places, { table: false });

@@ -21,8 +21,7 @@ fn score_heads() -> Vec<String> {
     let terms = Term::ALL.map(Term::about).into_iter().filter(|a| a.csv);
     let terms = terms.map(|a| a.key.replace('-', "_"));
     let first = iter::once("by_cost".to_owned());
-    let last = ["total", "front"].map(str::to_owned);
-    first.chain(terms).chain(last).collect()
+    first.chain(terms).chain(["total".to_owned()]).collect()
 }
 
 /// Writes the variants as they come, and gives what there is to say where they are not all that was asked for.
@@ -163,8 +162,7 @@ impl Lines {
                     for term in Term::ALL.into_iter().filter(|t| t.about().csv) {
                         self.push_some(Some(r.scores.term_value(term)));
                     }
-                    self.push_some(r.total);
-                    self.push_some(r.front);
+                    self.push_some(Some(r.total));
                 }
                 None => self.text.extend(score_heads().iter().map(|_| ',')),
             }

@@ -1,6 +1,6 @@
 //! A ranking in words and as data.
 
-use crate::model::ranking::{Order, Term};
+use crate::model::ranking::Term;
 use crate::score::evaluation::load_cases::Gripped;
 use crate::score::outcome::ranking::{Ranked, RankedPool};
 use crate::view::prelude::*;
@@ -10,25 +10,9 @@ const REASONS: usize = 10;
 
 /// Returns the terms of a ranking, for the head of a list.
 pub(crate) fn ranking_head(p: &RankedPool) -> String {
-    let terms = match p.ranking.order {
-        Order::Weighted => p
-            .ranking
-            .terms
-            .iter()
-            .map(|(t, w)| format!("{w} {}", t.name()))
-            .join(" + "),
-        Order::Lexicographic => p
-            .ranking
-            .terms
-            .iter()
-            .map(|(t, _)| t.name())
-            .join(", then "),
-        Order::Pareto => p.ranking.terms.iter().map(|(t, _)| t.name()).join(", "),
-    };
-    format!(
-        "ranked under the workload, {}: {terms}",
-        p.ranking.order.name()
-    )
+    let terms = p.ranking.terms.iter();
+    let terms = terms.map(|(t, w)| format!("{w} {}", t.name())).join(" + ");
+    format!("ranked under the workload, weighted: {terms}")
 }
 
 /// Describes the loads that the grip supplied.
@@ -132,11 +116,7 @@ pub(crate) fn place_reasons<'a>(
 pub(crate) fn ranking_columns(p: &RankedPool) -> Vec<&'static str> {
     let terms = p.ranking.terms.iter();
     let mut out: Vec<&str> = terms.filter_map(|(t, _)| t.heading()).collect();
-    match p.ranking.order {
-        Order::Weighted => out.push("score"),
-        Order::Pareto => out.push("front"),
-        Order::Lexicographic => {}
-    }
+    out.push("score");
     out
 }
 
@@ -147,11 +127,7 @@ pub(crate) fn ranking_cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
         .filter(|t| t.heading().is_some())
         .map(|t| r.scores.term_cell(t))
         .collect();
-    match p.ranking.order {
-        Order::Weighted => out.push(r.total.map_or(String::new(), |x| format!("{x:.4}"))),
-        Order::Pareto => out.push(r.front.map_or(String::new(), |x| x.to_string())),
-        Order::Lexicographic => {}
-    }
+    out.push(format!("{:.4}", r.total));
     out
 }
 
@@ -206,7 +182,6 @@ pub(crate) fn scores_json(m: &Mechanism, r: &Ranked, reason: Option<String>) -> 
         "minimum-norm": r.scores.minimum_norm,
         "by_cost": r.by_cost,
         "total": r.total,
-        "front": r.front,
         "reason": reason,
     });
     join_objects([out, more])

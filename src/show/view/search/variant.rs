@@ -171,7 +171,7 @@ const HEAD: &str = include_str!("costs.toml");
 ///
 /// # Examples
 /// ```
-/// use ozols::{file::costs::costs_from_str, view::search::variant::costs_toml};
+/// use ozols::{file::read::search::costs_from_str, view::search::variant::costs_toml};
 /// // The default costs are a file that can be changed and read back.
 /// let four_bar = ozols::built_in("four-bar")?;
 /// assert!(costs_from_str("costs.toml", &costs_toml(), &four_bar).is_ok());

@@ -64,19 +64,6 @@ fn fix_keeps_to_the_joints_that_may_be_changed() {
     }
 }
 
-// export writes the same document as fix, of a variant or as it is, and of nothing but a document.
-#[test]
-fn export_writes_the_owners_document() {
-    let dir = Folder::with("x.FCStd", fcstd(&four_bar(HINGES)));
-    dir.succeed("export x.FCStd --to fcstd -o new.FCStd --idea 1");
-    dir.succeed("export x.FCStd --to fcstd -o same.FCStd");
-    let [old, same] = ["x.FCStd", "same.FCStd"].map(|f| members(&dir.bytes(f)));
-    assert_eq!(same, old);
-    assert_eq!(figures_of(&dir, "new.FCStd"), (1, 0));
-    dir.assert_fails("export gripper-10 --to fcstd", "is not a file");
-    dir.assert_fails("export x.FCStd --to asmt", "is not one");
-}
-
 // The label of a joint is its type there.
 #[test]
 fn asmt_files_get_other_labels() {

@@ -181,11 +181,57 @@ pub struct Line {
     pub value: Residue,
 }
 
+/// A motion expanded order by order.
+pub(super) struct Expansion<'a> {
+    of: &'a Solved,
+    walks: Vec<Vec<FreedomPassed>>,
+    /// The coordinates of the columns as series from t¹ on.
+    coordinates: Vec<Vec<Residue>>,
+}
+
+impl<'a> Expansion<'a> {
+    /// Creates the expansion to first order of a motion that begins with these speeds, J x = 0.
+    pub(super) fn along(of: &'a Solved, speeds: &[Residue]) -> Expansion<'a> {
+        let mut walks = at_rest(of);
+        pass_contours(of.field, &mut walks, 1, |c| speeds[c]);
+        Expansion {
+            of,
+            walks,
+            coordinates: speeds.iter().map(|&x| vec![x]).collect(),
+        }
+    }
+
+    /// Adds the terms of the next order, with these coefficients of the free coordinates; those of the pivots follow.
+    /// Returns the gaps of that order in the equations that J does not solve.
+    pub(super) fn next_order(&mut self, given: impl Fn(usize) -> Residue) -> Vec<Residue> {
+        let f = self.of.field;
+        let d = self.coordinates.first().map_or(0, Vec::len) + 1;
+        let gaps = pass_contours(f, &mut self.walks, d, &given);
+        // Couplings are linear: they have no gap of higher order.
+        let sums = self.of.solve.iter().map(|row| f.dot(row, &gaps));
+        let mut sums: Vec<Residue> = sums.collect();
+        let left = sums.split_off(self.of.pivots.len());
+        let mut more = vec![0; self.coordinates.len()];
+        for (&p, sum) in self.of.pivots.iter().zip(sums) {
+            more[p] = f.neg(sum);
+        }
+        for (c, series) in self.coordinates.iter_mut().enumerate() {
+            series.push(f.add(given(c), more[c]));
+        }
+        for walk in &mut self.walks {
+            let mut at = SeriesTerm::ZERO;
+            for step in walk {
+                step.correct_order(f, d, more[step.column], &mut at);
+            }
+        }
+        left
+    }
+}
 /// Expands a motion that begins with these speeds, J x = 0, until it is stopped, to an order, or as far as the work
 /// allows.
 ///
 /// The free coordinates are speed times t plus `bent` times t², which also satisfies J x = 0. Also returns the
-/// coordinates of the columns as series from t¹ on, up to the order before a stop.
+/// coordinates of the columns as series from t¹ on, up to the same order.
 ///
 /// # Complexity
 /// 12 D² products for each freedom that a contour passes, up to order D.
@@ -195,76 +241,36 @@ pub(super) fn expand_line(
     bent: Option<&[Residue]>,
     order: usize,
 ) -> (Line, Vec<Vec<Residue>>) {
-    let f = of.field;
-    let mut walks = at_rest(of);
-    let mut coordinates: Vec<Vec<Residue>> = vec![Vec::new(); of.twists.len()];
-    let passed: usize = walks.iter().map(Vec::len).sum();
-    let mut work = 0;
-    let mut moves: Vec<bool> = speeds.iter().map(|&x| x != 0).collect();
+    let mut expansion = Expansion::along(of, speeds);
+    let passed: usize = of.walks.iter().map(Vec::len).sum();
+    let products = |d: usize| 30 * d * passed + of.solve.len() * of.solve.len();
+    let mut work = products(1);
     let mut out = Line {
         stopped: None,
-        order: 0,
+        order: 1,
         begun: 1,
         value: 0,
     };
-    for d in 1..=order {
-        work += 30 * d * passed + of.solve.len() * of.solve.len();
+    for d in 2..=order {
+        work += products(d);
         if work > WORK {
-            return (out, coordinates);
+            break;
         }
-        out.order = d;
-        let given = |c: usize| match (d, bent) {
-            (1, _) => speeds[c],
-            (2, Some(bent)) => bent[c],
+        let left = expansion.next_order(|c| match bent {
+            Some(bent) if d == 2 => bent[c],
             _ => 0,
-        };
-        let gaps = pass_contours(f, &mut walks, d, given);
-        if d == 1 {
-            let all = coordinates.iter_mut().zip(speeds);
-            all.for_each(|(series, &x)| series.push(x));
-            continue;
+        });
+        out.order = d;
+        if let Some(&value) = left.iter().find(|&&x| x != 0) {
+            (out.stopped, out.value) = (Some(d), value);
+            break;
         }
-        let mut more = vec![0; of.twists.len()];
-        for (i, row) in of.solve.iter().enumerate() {
-            // Couplings are linear: they have no gap of higher order.
-            let sum = f.dot(row, &gaps);
-            match of.pivots.get(i) {
-                Some(&p) => more[p] = f.neg(sum),
-                None if sum != 0 => {
-                    (out.stopped, out.value) = (Some(d), sum);
-                    return (out, coordinates);
-                }
-                None => {}
-            }
-        }
-        for (known, _) in moves
-            .iter_mut()
-            .zip(&more)
-            .filter(|(m, x)| !**m && **x != 0)
-        {
-            (*known, out.begun) = (true, d);
-        }
-        for (c, series) in coordinates.iter_mut().enumerate() {
-            series.push(f.add(given(c), more[c]));
-        }
-        for walk in &mut walks {
-            let mut at = SeriesTerm::ZERO;
-            for step in walk {
-                step.correct_order(f, d, more[step.column], &mut at);
-            }
+        let begins = |series: &Vec<Residue>| series.iter().position(|&x| x != 0) == Some(d - 1);
+        if expansion.coordinates.iter().any(begins) {
+            out.begun = d;
         }
     }
-    (out, coordinates)
-}
-
-/// Returns the equations that J does not solve to second order, for a motion that begins with these speeds.
-pub(super) fn second_order(of: &Solved, speeds: &[Residue]) -> Vec<Residue> {
-    let f = of.field;
-    let mut walks = at_rest(of);
-    pass_contours(f, &mut walks, 1, |c| speeds[c]);
-    let gaps = pass_contours(f, &mut walks, 2, |_| 0);
-    let left = of.solve[of.pivots.len()..].iter();
-    left.map(|row| f.dot(row, &gaps)).collect()
+    (out, expansion.coordinates)
 }
 
 /// Returns the contours before any motion.

@@ -23,7 +23,7 @@ use num_bigint::BigUint;
 
 /// The criterion by which another variant has less, so that this one has idle freedoms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Less {
+pub(super) enum Less {
     /// Freedoms only: no freedom of a minimal variant can be removed.
     Freedoms,
     /// Freedoms, at joints that do not cost more, with no more changes: a ball may replace a universal joint, but costs more.
@@ -33,37 +33,44 @@ pub(crate) enum Less {
 /// Maximum number of nodes of a diagram of minimal variants.
 const MOST: usize = 1 << 18;
 
-/// Returns the number of admissible variants for which no other has a part of their freedoms. Returns `None` if not all admissible variants
-/// are known, if orbits are counted, or if it takes too many nodes.
-///
-/// # Complexity
-/// O(nodes of the diagram of minimal variants · choices²).
-#[must_use]
-pub(crate) fn count_minimal(question: &Question, diagrams: &Diagrams) -> Option<BigUint> {
-    let order = Order::new(question, Less::Freedoms);
-    // Fewer freedoms by more changes may be more than there may be.
-    let limited = question.conditions.max_changes.is_some() && !order.fewer_changes;
-    if limited || question.conditions.symmetry == Symmetry::OnePerOrbit {
-        return None;
+impl Question {
+    /// Returns the number of minimal admissible variants: no other variant has only a part of their freedoms. Returns
+    /// `None` if not all admissible variants are known, if orbits are counted, or if it takes too many nodes.
+    ///
+    /// # Complexity
+    /// O(nodes of the diagram of minimal variants · choices²).
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+    /// let four_bar = ozols::built_in("four-bar")?;
+    /// let search = Search::new(exact_field(&four_bar, 0)?, &four_bar, Conditions::default())?;
+    /// let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    /// assert_eq!(search.count_variants(&diagrams.admissible, true).to_string(), "14");
+    /// assert_eq!(search.count_minimal(&diagrams), Some(12u32.into()));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn count_minimal(&self, diagrams: &Diagrams) -> Option<BigUint> {
+        // Fewer freedoms by more changes may be more than there may be.
+        let limited = self.conditions.max_changes.is_some()
+            && !Order::new(self, Less::Freedoms).fewer_changes;
+        if limited || self.conditions.symmetry == Symmetry::OnePerOrbit {
+            return None;
+        }
+        Some(count_total(self, &self.minimal_variants(diagrams)?, true))
     }
-    let least = minimal_variants(question, diagrams.listed_diagram(), &order)?;
-    Some(count_total(question, &least, true))
-}
 
-/// Returns the diagram of the minimal variants among the admissible. `None` if not all admissible variants are known, or if
-/// it takes too many nodes.
-pub(in crate::search) fn minimal_diagram(
-    question: &Question,
-    diagrams: &Diagrams,
-    less: Less,
-) -> Option<Diagram> {
-    let order = Order::new(question, less);
-    minimal_variants(question, diagrams.listed_diagram(), &order)
+    /// Returns the diagram of the minimal variants. Returns `None` if not all admissible variants are known, or if it
+    /// takes too many nodes.
+    #[must_use]
+    pub fn minimal_variants(&self, diagrams: &Diagrams) -> Option<Diagram> {
+        minimal_variants(self, diagrams.listed_diagram(), Less::Freedoms)
+    }
 }
 
 /// Which choices of each variable have less than another.
-#[derive(Debug)]
-pub(in crate::search) struct Order {
+struct Order {
     /// `[variable][choice]`: the others with no more, and whether they have less.
     within: Vec<Vec<Vec<(usize, bool)>>>,
     /// `[variable][choice]`: of those with less the ones with most.
@@ -74,7 +81,7 @@ pub(in crate::search) struct Order {
 
 impl Order {
     /// Returns the order of the choices of a question.
-    pub(in crate::search) fn new(question: &Question, less: Less) -> Order {
+    fn new(question: &Question, less: Less) -> Order {
         let within = |v: &Variable| -> Vec<Vec<(usize, bool)>> {
             let spans = v
                 .choices
@@ -132,11 +139,16 @@ struct Arrived {
     others: Vec<u32>,
 }
 
-/// Returns the variants of a diagram for which no other variant has less.
-fn minimal_variants(question: &Question, diagram: &Diagram, order: &Order) -> Option<Diagram> {
+/// Returns the variants of a diagram for which no other variant has less. `None` if not all are known, or if it takes too many nodes.
+pub(super) fn minimal_variants(
+    question: &Question,
+    diagram: &Diagram,
+    less: Less,
+) -> Option<Diagram> {
     if diagram.stop != Stop::Exhausted {
         return None;
     }
+    let order = Order::new(question, less);
     let once = question.conditions.state.is_none();
     let room = MOST.min(question.conditions.nodes);
     let mut states = vec![Arrived {
@@ -152,7 +164,7 @@ fn minimal_variants(question: &Question, diagram: &Diagram, order: &Order) -> Op
         let mut edges = Vec::with_capacity(states.len() * layer.choices);
         for state in &states {
             for choice in 0..layer.choices {
-                let Some(to) = carry_state(layer, order, once, state, choice, last) else {
+                let Some(to) = carry_state(layer, &order, once, state, choice, last) else {
                     edges.push(DEAD);
                     continue;
                 };

@@ -28,9 +28,9 @@ fn judged(m: &Mechanism, conditions: Conditions, digits: Digits, choices: &[usiz
         .unwrap()
         .judge_variant(choices);
     let word = |s| match s {
-        Standing::No => "no",
-        Standing::Sure(_) => "sure",
-        Standing::Doubtful(_) => "doubtful",
+        Answer::No => "no",
+        Answer::Yes => "sure",
+        Answer::Perhaps => "doubtful",
     };
     [found.determinate, found.admissible].map(|s| word(s).to_owned())
 }
