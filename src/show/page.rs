@@ -12,7 +12,7 @@ use base64::engine::general_purpose::STANDARD;
 pub use contents::{Commands, Page, Redesigns};
 use itertools::Itertools;
 use maud::{Markup, PreEscaped, html};
-pub use scenes::{SHOWN, named_swaps, state_swaps};
+pub use scenes::{SHOWN, state_swaps};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 

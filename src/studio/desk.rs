@@ -89,7 +89,7 @@ impl Desk {
 
     /// Returns the path of unsaved work, if there is any.
     pub(super) fn unsaved_path(&self) -> Option<PathBuf> {
-        self.open_file().kept_path()
+        self.open_file().kept.path.clone()
     }
 
     fn read_text(&mut self) {

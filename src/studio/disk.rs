@@ -43,14 +43,14 @@ pub(super) struct OpenFile {
     pub(super) options: robots::Options,
     /// The known content of the file, or `None` if it did not exist.
     pub(super) held: Option<Arc<[u8]>>,
-    kept: AutosavedText,
+    pub(super) kept: AutosavedText,
 }
 
 /// Where unsaved work is kept: a file that is locked as long as its owner lives, so that another studio tells what was left behind
 /// from what is at work.
 #[derive(Debug, Default)]
-struct AutosavedText {
-    path: Option<PathBuf>,
+pub(super) struct AutosavedText {
+    pub(super) path: Option<PathBuf>,
     lock: Option<File>,
 }
 
@@ -150,11 +150,6 @@ impl OpenFile {
         }
     }
 
-    /// Returns the path of unsaved work, if any.
-    pub(super) fn kept_path(&self) -> Option<PathBuf> {
-        self.kept.path.clone()
-    }
-
     /// Returns unsaved work of a studio that has ended, and its path. Deletes the work if the file has the same
     /// content.
     pub(super) fn left_behind(&self) -> Option<(PathBuf, Arc<[u8]>)> {
@@ -179,7 +174,8 @@ impl OpenFile {
 fn write_whole(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<File> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
     let made = || {
-        let mut beside = temporary_beside(folder.unwrap_or(Path::new(".")))?;
+        let folder = folder.unwrap_or(Path::new("."));
+        let mut beside = temporary_builder().tempfile_in(folder)?;
         write(beside.as_file_mut())?;
         beside.persist(path).map_err(|e| e.error)
     };
@@ -189,19 +185,16 @@ fn write_whole(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> 
     })
 }
 
-/// Creates a temporary file in a folder, with the usual permissions. By default, only the owner can read temporary
-/// files.
-fn temporary_beside(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
-    let mut made = tempfile::Builder::new();
-    made.prefix(".tmp-ozols-");
+/// Returns a maker of temporary files that may be read by whom the umask lets: they become results.
+fn temporary_builder() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".tmp-ozols-");
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        made.permissions(fs::Permissions::from_mode(0o666))
-            .tempfile_in(folder)
+        builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    #[cfg(not(unix))]
-    made.tempfile_in(folder)
+    builder
 }
 
 fn kind_of(path: &Path) -> Kind {

@@ -5,12 +5,13 @@ use super::reading::DeskReading;
 use crate::file::edit::{Edit, find_differences};
 use crate::file::write::mechanism_file;
 use crate::model::mechanism::Mechanism;
-use crate::page::named_swaps;
 use crate::page::scenes::still_scene;
+use crate::page::state_swaps;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::release::Release;
 use crate::robots;
 use crate::score::outcome::Outcome;
+use crate::search::question::space::choice_name;
 use crate::view::lint::describe_release;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -29,13 +30,19 @@ pub(super) fn idea_marks(
         .filter_map(|c| Some((c["joint"].as_str()?, c["to"].as_str()?)))
         .collect();
     let one = |(analysis, state): (&StateAnalysis, _)| {
-        let mut named = named_swaps(m, found, state);
-        named.retain(|(joint, to, _)| wanted.contains(&(joint.as_str(), to.as_str())));
-        let swaps: Vec<_> = named.iter().map(|(_, _, swap)| *swap).collect();
+        let all = state_swaps(m, found, state).into_iter();
+        let named = all.filter_map(|([v, c], swap)| {
+            let choice = &found.search.space.variables[v].choices[c];
+            let to = choice_name(&found.search.mechanism, swap.joint, choice);
+            let joint = m.joints[swap.joint].id.as_str();
+            wanted
+                .contains(&(joint, &*to))
+                .then_some(([joint.to_owned(), to], swap))
+        });
+        let (rows, swaps): (Vec<[String; 2]>, Vec<_>) = named.unzip();
         let of = analysis.meant.as_deref().unwrap_or(m);
         let scene = still_scene(of, (Some(analysis), state), &swaps)?;
         let scene = serde_json::to_value(scene).ok()?;
-        let rows: Vec<_> = named.iter().map(|(joint, to, _)| [joint, to]).collect();
         Some(json!({ "rows": rows, "symbols": scene["symbols"], "swaps": scene["swaps"] }))
     };
     let all = states.iter().zip(m.state_ids()).map(one);

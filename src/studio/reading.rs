@@ -29,7 +29,7 @@ pub(super) struct DeskReading {
     /// The entries, as far as the text is one of a mechanism.
     pub(super) file: Option<MechanismFile>,
     /// Where joints and points of interest are.
-    places: [Vec<Option<[f64; 3]>>; 2],
+    places: Places,
     /// Errors and warnings.
     told: Vec<Value>,
     /// The lines of each item.
@@ -38,6 +38,16 @@ pub(super) struct DeskReading {
     pub(super) outgrown: Vec<(String, String)>,
     /// The description, where it is one.
     pub(super) imported: Option<Box<Imported>>,
+}
+
+/// Where joints and points of interest are, as far as that is known.
+type Places = [Vec<Option<[f64; 3]>>; 2];
+
+fn places_of(m: &Mechanism) -> Places {
+    let joints = m.joints.iter().map(|j| &j.frame.point);
+    let joints = joints.map(|p| Some(to_vector(p))).collect();
+    let points = m.points.iter().map(|p| Some(to_vector(&p.point)));
+    [joints, points.collect()]
 }
 
 /// How much a problem weighs.
@@ -77,10 +87,7 @@ impl DeskReading {
         });
         match made {
             Ok(mechanism) => {
-                let joints = mechanism.joints.iter();
-                let joints = joints.map(|j| Some(to_vector(&j.frame.point))).collect();
-                let points = mechanism.points.iter();
-                out.places = [joints, points.map(|p| Some(to_vector(&p.point))).collect()];
+                out.places = places_of(&mechanism);
                 if let Ok(checked) = check_file(&name, bytes) {
                     for w in &checked.warnings.warnings {
                         let weight = match w.kind {
@@ -113,11 +120,7 @@ impl DeskReading {
         match api::description_of(path, bytes, options) {
             Ok(imported) => {
                 let m = &imported.mechanism;
-                let joints = m.joints.iter();
-                out.places = [
-                    joints.map(|j| Some(to_vector(&j.frame.point))).collect(),
-                    m.points.iter().map(|p| Some(to_vector(&p.point))).collect(),
-                ];
+                out.places = places_of(m);
                 out.file = Some(mechanism_file(m));
                 let doubts = imported.report.list_doubts();
                 for line in doubts.lines().filter(|l| !l.trim().is_empty()) {

@@ -70,29 +70,3 @@ fn contours_that_are_named_are_taken_first() {
         assert_eq!(basis.iter().map(|c| c.joints.len()).max(), Some(longest));
     }
 }
-
-/// A contour that the file does not name is followed round from its first joint towards the earlier of its two neighbours.
-#[test]
-fn a_contour_is_followed_round() {
-    let mut long = 0;
-    for name in builtin::names() {
-        let m = built_in(name);
-        for c in contour_basis(&m, StateId::FREE) {
-            let passed: Vec<JointId> = c.joints.iter().map(|(j, _)| *j).collect();
-            for (i, (joint, forward)) in c.joints.iter().enumerate() {
-                let [from, to] = m.joints[*joint].links;
-                let ends = if *forward { [from, to] } else { [to, from] };
-                assert_eq!(ends, [c.links[i], c.links[(i + 1) % c.links.len()]]);
-            }
-            let named = m
-                .contours
-                .iter()
-                .any(|n| passed.iter().all(|j| n.contains(j)));
-            if passed.len() > 3 && !named {
-                long += 1;
-                assert!(passed[1] < passed[passed.len() - 1], "{name}: {passed:?}");
-            }
-        }
-    }
-    assert!(long > 40, "{long}");
-}

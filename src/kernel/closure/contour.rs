@@ -353,7 +353,7 @@ impl Tree {
         (!in_tree && apart).then(|| (dx + dy + e.weight().length, e.id().index()))
     }
 
-    /// Returns the edges of that walk, in order.
+    /// Returns the edges of that walk.
     fn closing_cycle(&self, graph: &Graph, e: usize) -> Vec<usize> {
         let e = EdgeIndex::new(e);
         let Some((x, y)) = graph.edge_endpoints(e) else {
@@ -370,8 +370,8 @@ impl Tree {
             }
             out
         };
-        let mut cycle = vec![graph[e].edge];
-        cycle.extend(path(x));
+        let mut cycle = path(x);
+        cycle.push(graph[e].edge);
         cycle.extend(path(y).into_iter().rev());
         cycle
     }

@@ -98,11 +98,14 @@ fn best_place(wish: &Wish, taken: &[Rect], lines: &[AvoidedLine]) -> LabelPlace 
         [bounds.left, bounds.top],
         [bounds.right, bounds.bottom],
     ));
-    while away < farthest + 40.0 {
+    // outside of everything there always is room
+    loop {
         let far = away - wish.clear;
         let ring = far * 0.06 + if far > NEAR { 1.5 } else { 0.0 };
-        if best.as_ref().is_some_and(|(least, _)| *least <= ring) {
-            break;
+        if let Some((least, place)) = &best
+            && (*least <= ring || away >= farthest + 40.0)
+        {
+            return place.clone();
         }
         let tried = (0..ANGLES).filter_map(|step| {
             let angle = std::f64::consts::TAU * step as f64 / ANGLES as f64;
@@ -120,14 +123,6 @@ fn best_place(wish: &Wish, taken: &[Rect], lines: &[AvoidedLine]) -> LabelPlace 
         best = best.into_iter().chain(tried).min_by(cheaper);
         away += 5.0 + 0.12 * far;
     }
-    let outside = || {
-        // outside of everything there always is room
-        let middle = [bounds.right + wish.width / 2.0 + GAP, wish.anchor[1]];
-        let rect = Rect::around(middle, wish.width, wish.height);
-        let leader = Some((wish.anchor, rect.nearest_point(wish.anchor)));
-        LabelPlace { rect, leader }
-    };
-    best.map_or_else(outside, |(_, place)| place)
 }
 
 /// Returns the box whose distance from the anchor is `away`, in a direction.

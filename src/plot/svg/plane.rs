@@ -159,20 +159,28 @@ pub fn segments_cross(a: Point, b: Point, c: Point, d: Point) -> bool {
     side(a, b, c) * side(a, b, d) < -1e-15 && side(c, d, a) * side(c, d, b) < -1e-15
 }
 
+/// Returns the sides of a polygon by its corners, or the only side of a bar by its ends.
+pub fn sides_of<T: Copy>(corners: &[T]) -> impl Iterator<Item = (T, T)> + Clone + '_ {
+    let n = corners.len();
+    let count = if n > 2 { n } else { n.saturating_sub(1) };
+    (0..count).map(move |i| (corners[i], corners[(i + 1) % n]))
+}
+
+/// Returns twice the area of a polygon, negative if it turns to the left on paper.
+pub fn twice_area(polygon: &[Point]) -> f64 {
+    let sides = sides_of(polygon).filter(|_| polygon.len() > 2);
+    sides.map(|(a, b)| cross(a, b)).sum()
+}
+
 /// Returns the area of a polygon.
 pub fn polygon_area(polygon: &[Point]) -> f64 {
-    let n = polygon.len();
-    let twice: f64 = (0..n)
-        .map(|i| cross(polygon[i], polygon[(i + 1) % n]))
-        .sum();
-    twice.abs() / 2.0
+    twice_area(polygon).abs() / 2.0
 }
 
 /// Returns true if a point is inside a polygon (even-odd).
 pub fn is_inside(p: Point, polygon: &[Point]) -> bool {
     let mut odd = false;
-    for (i, &a) in polygon.iter().enumerate() {
-        let b = polygon[(i + 1) % polygon.len()];
+    for (a, b) in sides_of(polygon).filter(|_| polygon.len() > 2) {
         if (a[1] > p[1]) != (b[1] > p[1])
             && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
         {

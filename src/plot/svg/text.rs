@@ -37,59 +37,34 @@ pub fn shorten_names(all: &[&str], size: f64, room: f64) -> Vec<String> {
         .iter()
         .map(|n| escape_direction(&cut_text(n, size, f64::INFINITY)).into_owned())
         .collect();
-    let whole: Vec<Vec<char>> = straight.iter().map(|n| n.chars().collect()).collect();
-    let fits = |n: usize| text_width(&straight[n], size) <= room;
-    // The number of characters left next to the dots, assuming the widest ones.
-    let wide = |c: &&char| text_width(&c.to_string(), size) > 0.6 * size;
-    let left = |n: usize| {
-        let one = if whole[n].iter().any(|c| wide(&c)) {
-            size
-        } else {
-            0.6 * size
-        };
-        ((room / one) as usize).saturating_sub(1).max(2)
-    };
-    // The given number of the remaining characters are at the front.
-    let short = |n: usize, front: usize| -> String {
-        let (chars, left) = (&whole[n], left(n));
-        let (front, back) = (front.min(left), left - front.min(left));
-        let (head, tail) = (&chars[..front], &chars[chars.len() - back..]);
-        head.iter().chain(&['…']).chain(tail).collect()
-    };
     let mut out: Vec<String> = Vec::new();
-    for (n, name) in straight.iter().enumerate() {
-        if fits(n) {
+    for name in &straight {
+        if text_width(name, size) <= room {
             out.push(name.clone());
             continue;
         }
-        let middle = left(n).div_ceil(2);
-        let taken = |s: &String| {
-            let before = out
-                .iter()
-                .zip(&straight)
-                .any(|(o, of)| o == s && of != name);
-            before || (0..all.len()).any(|k| fits(k) && straight[k] == *s && straight[k] != *name)
-        };
-        // From the middle outwards, with a number if every cut equals that of another.
-        let cuts = (0..=left(n)).flat_map(|by| [middle.checked_sub(by), Some(middle + by)]);
-        let free = cuts
-            .flatten()
-            .filter(|f| *f <= left(n))
-            .map(|f| short(n, f))
-            .find(|s| !taken(s));
-        out.push(free.unwrap_or_else(|| {
-            let numbered = |k: usize| {
-                let short = short(n, middle);
+        let chars: Vec<char> = name.chars().collect();
+        // The number of characters left next to the dots, assuming the widest ones.
+        let widths = chars.iter().map(|c| text_width(&c.to_string(), size));
+        let widest = widths.fold(0.0, f64::max);
+        let left = ((room / widest) as usize).saturating_sub(1).max(2);
+        let (head, tail) = (&chars[..left.div_ceil(2)], &chars[chars.len() - left / 2..]);
+        let short = || head.iter().chain(&['…']).chain(tail).copied();
+        // With a number if it equals that of another.
+        let numbered = |k: usize| match k {
+            1 => short().collect(),
+            k => {
                 let number = format!("…{k}");
-                let kept = short.chars().count().saturating_sub(number.chars().count());
-                short
-                    .chars()
-                    .take(kept)
-                    .chain(number.chars())
-                    .collect::<String>()
-            };
-            (2..).map(numbered).find(|s| !taken(s)).unwrap_or_default()
-        }));
+                let kept = (left + 1).saturating_sub(number.chars().count());
+                short().take(kept).chain(number.chars()).collect()
+            }
+        };
+        let is_taken = |s: &String| {
+            let mut known = out.iter().zip(&straight);
+            let other = straight.iter().any(|of| of == s && of != name);
+            other || known.any(|(o, of)| o == s && of != name)
+        };
+        out.extend((1..).map(numbered).find(|s| !is_taken(s)));
     }
     out
 }

@@ -1,7 +1,6 @@
 //! The kinematic scheme: links and the symbols of joints where the coordinates have them.
 
-use crate::draw::kinematic::body::{Arrow, Marked, known_loads};
-use crate::draw::kinematic::wire::{DrawnWire, Wire};
+use crate::draw::kinematic::body::{Arrow, DrawnWire, Marked, Wire, known_loads};
 use crate::draw::naming::draw_leaders;
 use crate::draw::place::projection::Projection;
 use crate::draw::prelude::*;
@@ -83,13 +82,6 @@ struct Spot {
     rect: Rect,
 }
 
-/// The texts of a scheme: the line under the title if it is not the figures, the end of the description, the legend.
-struct Words {
-    shows: Option<String>,
-    more: String,
-    legend: Vec<(Swatch, String)>,
-}
-
 /// One picture of a moving scheme.
 struct MovingPicture {
     /// The points of interest.
@@ -163,7 +155,7 @@ impl Kinematic<'_> {
         self.subject.mechanism.links[link].role == Role::Output
     }
 
-    fn draw_sheet(mut self) -> Drawing {
+    fn draw_sheet(self) -> Drawing {
         let rest = self.picture_in(None, &[]);
         let names = self.place_labels(&rest);
         let labels = names.iter().map(|(place, _)| place.rect);
@@ -171,12 +163,7 @@ impl Kinematic<'_> {
         let area = room.fold(self.room_of(std::slice::from_ref(&rest), 0), |a, r| {
             a.with(&r)
         });
-        let words = Words {
-            shows: self.shows.take(),
-            more: String::new(),
-            legend: self.legend_rows(),
-        };
-        self.on_sheet(area, words, |sheet, by| {
+        self.on_sheet(area, self.legend_rows(), |sheet, by| {
             sheet.draw_group("data-drawing", "", by, |s| {
                 self.draw_ground(s);
                 self.draw_at_rest(s, &rest);
@@ -193,13 +180,19 @@ impl Kinematic<'_> {
     }
 
     /// Lays out a sheet for an area and draws on it; `draw` gets the offset of the scheme on the sheet.
-    fn on_sheet(&self, area: Rect, words: Words, draw: impl FnOnce(&mut Sheet, Point)) -> Drawing {
+    fn on_sheet(
+        &self,
+        area: Rect,
+        legend: Vec<(Swatch, String)>,
+        draw: impl FnOnce(&mut Sheet, Point),
+    ) -> Drawing {
         let [what, figures] = self.subject.subtitle_lines(&self.view_title());
+        let shows = self.shows.iter().map(|shows| format!(" Shown: {shows}."));
         let caption = Caption {
             title: &self.subject.drawing_title(),
-            subtitle: [&what, words.shows.as_ref().unwrap_or(&figures)],
-            description: &(self.describe_drawing() + &words.more),
-            legend: words.legend,
+            subtitle: [&what, self.shows.as_ref().unwrap_or(&figures)],
+            description: &(self.describe_drawing() + &shows.collect::<String>()),
+            legend,
         };
         draw_sheet(&caption, area, STRIP, |sheet, shift, below| {
             draw(sheet, shift);

@@ -5,11 +5,12 @@ use crate::draw::naming::{Name, draw_leaders};
 use crate::draw::place::graph::{Graph, joint_ring};
 use crate::draw::place::layout::{Layout, find_layout};
 use crate::draw::prelude::*;
-use crate::draw::sheet::shapes::{HALF, hatch_path, outline_sides, rounded_path};
+use crate::draw::sheet::shapes::{HALF, hatch_path, rounded_path};
 use crate::draw::sheet::{Caption, draw_sheet};
 use crate::draw::subject::roominess;
 use crate::geom::expr::Expr;
 use crate::svg::labels::LabelPlace;
+use crate::svg::plane::sides_of;
 
 mod naming;
 
@@ -265,8 +266,8 @@ impl<'a> Scheme<'a> {
         let Some(l) = self.parts.links.iter().position(|&l| l == frame) else {
             return false;
         };
-        let mut sides = outline_sides(&self.link_corners(l)).into_iter();
-        sides.any(|(a, b)| to_segment(p, a, b) < HALF + 6.0)
+        let corners = self.link_corners(l);
+        sides_of(&corners).any(|(a, b)| to_segment(p, a, b) < HALF + 6.0)
     }
 
     fn draw_joint(&self, sheet: &mut Sheet, i: usize) {

@@ -290,16 +290,6 @@ impl Sheet {
         self.draw_path(class, &path_data(&[a, b], false));
     }
 
-    /// Draws an arrow with a head of length `head`.
-    pub(crate) fn draw_arrow(&mut self, class: &str, from: Point, to: Point, head: f64) {
-        self.draw_line(class, from, to);
-        let along = sub(to, from);
-        let back = scale(along, -head / plane_norm(along));
-        let side = [-back[1] * 0.42, back[0] * 0.42];
-        let corners = [to, add(add(to, back), side), sub(add(to, back), side)];
-        self.draw_path("ink", &path_data(&corners, true));
-    }
-
     /// Draws a circle.
     pub(crate) fn draw_circle(&mut self, class: &str, at: Point, radius: f64) {
         self.xml

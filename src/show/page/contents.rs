@@ -3,7 +3,7 @@
 use crate::draw::{Drawing, Scene};
 use crate::format::plain::changes_direction;
 use crate::model::mechanism::{Joint, Mechanism};
-use crate::page::scenes::swap_places;
+use crate::page::scenes::state_swaps;
 use crate::redundancy::analysis::{ContourShare, StateAnalysis};
 use crate::score::outcome::Outcome;
 use crate::score::outcome::remarks::Remarks;
@@ -83,12 +83,11 @@ pub(super) fn script_data(
 ) -> String {
     let m = page.mechanism;
     // Variable, choice and joint of each swap of the scene of a state, in its order.
-    let swaps = |s| match &page.redesigns {
-        Ok(r) => swap_places(m, r.found, s)
-            .iter()
-            .map(|(v, c, swap)| [*v, *c, swap.joint.index()])
-            .collect(),
-        Err(_) => Vec::new(),
+    let swaps = |s| -> Vec<[usize; 3]> {
+        let all = page.redesigns.iter();
+        let all = all.flat_map(|r| state_swaps(m, r.found, s));
+        all.map(|([v, c], swap)| [v, c, swap.joint.index()])
+            .collect()
     };
     let contour = |c: &ContourShare| json!({ "name": c.contour.name(m), "redundant": c.redundant });
     let state = |s: &StateAnalysis| {

@@ -6,7 +6,6 @@ use crate::page::moving::Moving;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::stress::SelfStress;
 use crate::score::outcome::Outcome;
-use crate::search::question::space::choice_name;
 use crate::view::analysis::Analysis;
 
 /// Idle freedoms, and self-stresses, of a state that are shown in space.
@@ -28,8 +27,10 @@ pub fn state_scenes(
 ) -> Vec<Option<(Drawing, Scene)>> {
     let one = |(found, state): (&StateAnalysis, StateId)| {
         let m = found.meant.as_deref().unwrap_or(mechanism);
-        let swaps = search.map(|found| state_swaps(mechanism, found, state));
-        moving_scene(m, (found, state), &swaps.unwrap_or_default())
+        let swaps = search.into_iter();
+        let swaps = swaps.flat_map(|found| state_swaps(mechanism, found, state));
+        let swaps: Vec<Swap<'_>> = swaps.map(|(_, swap)| swap).collect();
+        moving_scene(m, (found, state), &swaps)
     };
     states.iter().zip(mechanism.state_ids()).map(one).collect()
 }
@@ -116,53 +117,28 @@ pub fn still_scene(
     Some(draw_scene(m, of, &rest, &[], swaps).1)
 }
 
-/// Returns each joint of a state with each choice except the original one: the variable, the choice, and the new joint.
-pub(super) fn swap_places<'a>(
+/// Returns what the variants of a search may put at the joints of a state, each with its variable and choice, for
+/// [`kinematic_scene`](crate::draw::kinematic_scene).
+#[must_use]
+pub fn state_swaps<'a>(
     m: &'a Mechanism,
     found: &Outcome,
     state: StateId,
-) -> Vec<(usize, usize, Swap<'a>)> {
+) -> Vec<([usize; 2], Swap<'a>)> {
     let there: Vec<JointId> = m.joints_in(state).collect();
     let mut out = Vec::new();
     for (v, variable) in found.search.space.variables.iter().enumerate() {
         for (c, choice) in variable.choices.iter().enumerate().skip(1) {
-            for &joint in variable.joints.iter().filter(|j| there.contains(j)) {
-                let Some(option) = m.joints[joint].options.get(choice.option) else {
-                    continue;
-                };
-                let unloading = choice.unloading.is_some();
+            let joints = variable.joints.iter().filter(|j| there.contains(j));
+            out.extend(joints.filter_map(|&joint| {
                 let swap = Swap {
                     joint,
-                    option,
-                    unloading,
+                    option: m.joints[joint].options.get(choice.option)?,
+                    unloading: choice.unloading.is_some(),
                 };
-                out.push((v, c, swap));
-            }
+                Some(([v, c], swap))
+            }));
         }
     }
     out
-}
-
-/// Returns what the variants of a search put at the joints of a state, for
-/// [`kinematic_scene`](crate::draw::kinematic_scene).
-#[must_use]
-pub fn state_swaps<'a>(m: &'a Mechanism, found: &Outcome, state: StateId) -> Vec<Swap<'a>> {
-    let all = swap_places(m, found, state).into_iter();
-    all.map(|(_, _, swap)| swap).collect()
-}
-
-/// Returns the same with the names of joint and choice, as the changes of a variant have them.
-#[must_use]
-pub fn named_swaps<'a>(
-    m: &'a Mechanism,
-    found: &Outcome,
-    state: StateId,
-) -> Vec<(String, String, Swap<'a>)> {
-    let all = swap_places(m, found, state).into_iter();
-    let named = all.filter_map(|(v, c, swap)| {
-        let choice = found.search.space.variables.get(v)?.choices.get(c)?;
-        let name = choice_name(&found.search.mechanism, swap.joint, choice);
-        Some((m.joints[swap.joint].id.clone(), name, swap))
-    });
-    named.collect()
 }

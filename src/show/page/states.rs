@@ -53,9 +53,10 @@ fn drawings_html(page: &Page<'_>, s: &State<'_>, state: StateId) -> Markup {
         analysis: Some(s.found),
         marks: None,
     };
-    let redesigns = page.redesigns.as_ref().ok();
-    let swaps = redesigns.map(|r| state_swaps(page.mechanism, r.found, state));
-    let kinematic = kinematic_with(&subject, &swaps.unwrap_or_default());
+    let redesigns = page.redesigns.iter();
+    let swaps = redesigns.flat_map(|r| state_swaps(page.mechanism, r.found, state));
+    let swaps: Vec<_> = swaps.map(|(_, swap)| swap).collect();
+    let kinematic = kinematic_with(&subject, &swaps);
     html! {
         div.drawings {
             @for (kind, name, drawn) in [

@@ -280,6 +280,8 @@ impl Lint {
 /// ```
 pub fn lint_json(all: &[&Lint], passed_over: &[PassedOver]) -> Value {
     let mut out = json!({ "files": all });
-    finding::in_json(&mut out, passed_over);
+    if !passed_over.is_empty() {
+        out["passed_over"] = json!(passed_over);
+    }
     out
 }

@@ -106,6 +106,72 @@ fn farthest_pair(points: &[Point]) -> [Point; 2] {
     best.0
 }
 
+/// How the points of a shape are joined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum WireForm {
+    /// A link: a plate between its points, or a bar where they look to be in a row.
+    Hull,
+    /// A link as an arc.
+    Arc,
+    /// A bar that bows out to pass another.
+    Bow,
+    /// A line.
+    Line,
+    /// A closed line.
+    Loop,
+}
+
+impl WireForm {
+    /// Returns the form for programs.
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            WireForm::Hull => "hull",
+            WireForm::Arc | WireForm::Bow | WireForm::Line => "line",
+            WireForm::Loop => "loop",
+        }
+    }
+}
+
+/// A shape fixed to a link.
+#[derive(Debug, Clone)]
+pub(super) struct Wire {
+    /// The place of its link among those drawn.
+    pub(super) row: usize,
+    /// The class of the style sheet; that of a link follows from how it is seen.
+    pub(super) class: &'static str,
+    pub(super) form: WireForm,
+    pub(super) points: Vec<Vector>,
+}
+
+/// A shape on paper.
+#[derive(Debug, Clone)]
+pub(super) struct DrawnWire {
+    pub(super) row: usize,
+    pub(super) class: String,
+    /// Whether it is the link itself.
+    pub(super) link: bool,
+    /// Fewer than two where all joints of a link are in one place.
+    pub(super) points: Vec<Point>,
+    pub(super) closed: bool,
+}
+
+impl DrawnWire {
+    /// Returns its segments.
+    pub(super) fn segments(&self) -> impl Iterator<Item = (Point, Point)> + '_ {
+        let n = self.points.len();
+        let count = if self.closed { n } else { n.saturating_sub(1) };
+        (0..count).map(move |i| (self.points[i], self.points[(i + 1) % n]))
+    }
+
+    /// Returns its middle. That of a line is halfway along.
+    pub(super) fn middle(&self) -> Point {
+        if self.closed || self.points.len() < 3 {
+            return mean(self.points.iter().copied());
+        }
+        self.points[self.points.len() / 2]
+    }
+}
+
 /// Half the width of a point's mark. The mark is not a circle, because joints are circles.
 const MARK: f64 = 4.0;
 
@@ -180,7 +246,11 @@ pub(super) struct Arrow {
 
 /// Returns the shapes of an arrow that begins at a point of the paper.
 pub(super) fn arrow_outline(at: Point, arrow: &Arrow, view: &View) -> Vec<Shape> {
-    let class = if arrow.turns { "moment" } else { "force" };
+    let (class, head) = if arrow.turns {
+        ("moment", "moment head")
+    } else {
+        ("force", "force head")
+    };
     let to = view.flat_vector(arrow.along);
     let (length, toward) = (norm(arrow.along), dot(arrow.along, view.toward));
     if arrow.turns && toward.abs() > END_ON * length {
@@ -192,8 +262,8 @@ pub(super) fn arrow_outline(at: Point, arrow: &Arrow, view: &View) -> Vec<Shape>
         };
         let arc: Vec<Point> = (0..=24).map(on).collect();
         let back = unit(sub(arc[22], arc[24]));
-        let head = arrow_head(arc[24], back, (0.8 * radius).min(HEAD), class);
-        return vec![Shape::line(class, arc), head];
+        let point = arrow_head(arc[24], back, (0.8 * radius).min(HEAD), head);
+        return vec![Shape::line(class, arc), point];
     }
     if toward.abs() > END_ON * length {
         // the point of an arrow that comes, the feathers of one that goes
@@ -204,7 +274,7 @@ pub(super) fn arrow_outline(at: Point, arrow: &Arrow, view: &View) -> Vec<Shape>
         });
         let line = |points: Vec<Point>| Shape::line(class, points);
         let inside = if toward > 0.0 {
-            vec![Shape::circle(format!("{class} head"), at, 0.3 * r)]
+            vec![Shape::circle(head, at, 0.3 * r)]
         } else {
             [-1.0, 1.0]
                 .map(|s| line(vec![add(at, [-d, -s * d]), add(at, [d, s * d])]))
@@ -216,23 +286,19 @@ pub(super) fn arrow_outline(at: Point, arrow: &Arrow, view: &View) -> Vec<Shape>
     let back = scale(unit(to), -1.0);
     let size = (0.6 * plane_norm(to)).min(HEAD);
     let mut out = vec![Shape::line(class, vec![at, tip])];
-    out.push(arrow_head(tip, back, size, class));
+    out.push(arrow_head(tip, back, size, head));
     if arrow.turns {
-        out.push(arrow_head(
-            add(tip, scale(back, 0.8 * size)),
-            back,
-            size,
-            class,
-        ));
+        let behind = add(tip, scale(back, 0.8 * size));
+        out.push(arrow_head(behind, back, size, head));
     }
     out
 }
 
-fn arrow_head(tip: Point, back: Point, size: f64, class: &str) -> Shape {
+/// Returns the head of an arrow; `back` is a direction of length 1.
+pub(super) fn arrow_head(tip: Point, back: Point, size: f64, class: &str) -> Shape {
     let side = scale([-back[1], back[0]], 0.4 * size);
     let foot = add(tip, scale(back, size));
-    let corners = vec![tip, add(foot, side), sub(foot, side)];
-    Shape::path(format!("{class} head"), corners, true)
+    Shape::path(class, vec![tip, add(foot, side), sub(foot, side)], true)
 }
 
 /// The load of a joint.

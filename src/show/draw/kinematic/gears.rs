@@ -1,7 +1,7 @@
 //! Joints that gears couple, as their pitch circles, and a rack as its pitch line, which touches the circle of its pinion.
 
 use crate::draw::kinematic::Kinematic;
-use crate::draw::kinematic::wire::{Wire, WireForm};
+use crate::draw::kinematic::body::{Wire, WireForm};
 use crate::draw::place::projection::{self, cross, norm};
 use crate::draw::prelude::*;
 use crate::model::joint_type::CoupledFreedom;

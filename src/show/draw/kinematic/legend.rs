@@ -1,6 +1,6 @@
 //! The texts of a kinematic scheme: its legend and its description.
 
-use crate::draw::kinematic::wire::WireForm;
+use crate::draw::kinematic::body::{WireForm, arrow_head};
 use crate::draw::kinematic::{Kinematic, Spot};
 use crate::draw::place::projection;
 use crate::draw::prelude::*;
@@ -109,7 +109,9 @@ impl Kinematic<'_> {
                     sheet.draw_line("line", add(origin, [-d, d]), add(origin, [d, -d]));
                 }
             } else {
-                sheet.draw_arrow("line", origin, add(origin, tip), 6.5);
+                let (end, back) = (add(origin, tip), scale(tip, -1.0 / length));
+                sheet.draw_line("line", origin, end);
+                sheet.draw_shapes(&[arrow_head(end, back, 6.5, "ink")]);
                 taken.push(Rect::around(
                     add(origin, scale(tip, 0.5)),
                     tip[0].abs() + 3.0,
@@ -161,11 +163,8 @@ fn round_below(x: f64) -> Option<f64> {
     if !(x.is_finite() && x > 1e-200) {
         return None;
     }
-    let power = 10f64.powi(x.log10().floor() as i32);
-    let step = [5.0, 2.0, 1.0].into_iter().find(|s| s * power <= x)?;
+    let exponent = x.log10().floor();
     // through text, so that 0.2 is 0.2
-    let text = format!("{:e}", step * power);
-    let (mantissa, exponent) = text.split_once('e')?;
-    let mantissa: f64 = mantissa.parse().ok()?;
-    format!("{}e{exponent}", mantissa.round()).parse().ok()
+    let round = [5, 2, 1].map(|step| format!("{step}e{exponent}").parse().ok());
+    round.into_iter().flatten().find(|round: &f64| *round <= x)
 }

@@ -1,7 +1,7 @@
 //! A kinematic scheme over the way of its drive: one picture a pose, shown one after the other.
 
 use crate::draw::kinematic::moving::frame::Carried;
-use crate::draw::kinematic::{Kinematic, MovingPicture, Spot, Words};
+use crate::draw::kinematic::{Kinematic, MovingPicture, Spot};
 use crate::draw::prelude::*;
 use crate::draw::symbol::placed::Symbol;
 use crate::motion::drive_range::Way;
@@ -54,18 +54,13 @@ pub fn kinematic_moving(subject: &Subject<'_>, sight: &Sight, moved: &Moved<'_>)
     }
     rest.traces = (rest.traced_ways(&poses), moved.way.closed);
     let stress = moved.stress.map(|(name, _)| format!("; {name}"));
-    let shows = moved.words.to_owned() + &stress.unwrap_or_default();
+    rest.shows = Some(moved.words.to_owned() + &stress.unwrap_or_default());
     let mut legend = rest.legend_rows();
     legend.extend(flag_row(&frames[start]));
     legend.extend(rest.arrow_rows(&frames[start].arrows));
-    let words = Words {
-        more: format!(" Moving: {shows}."),
-        shows: Some(shows),
-        legend,
-    };
     let arrows = frames.iter().filter_map(|f| rest.arrow_room(&f.arrows));
     let area = arrows.fold(rest.room_of(&frames, start), |all, r| all.with(&r));
-    rest.on_sheet(area, words, |sheet, by| {
+    rest.on_sheet(area, legend, |sheet, by| {
         sheet.write_style(&animation_style(frames.len(), moved.way.closed));
         sheet.draw_group("data-drawing", "", by, |s| {
             rest.draw_traces(s);
@@ -201,7 +196,8 @@ impl Kinematic<'_> {
         for g in &self.grounds {
             area = area.with(&g.ground_room());
         }
-        for p in self.traced_points().chain(self.points.iter().map(|p| p.at)) {
+        let traced = self.traces.0.iter().flatten().copied();
+        for p in traced.chain(self.points.iter().map(|p| p.at)) {
             area = area.with(&Rect::around(p, 6.0, 6.0));
         }
         area

@@ -6,8 +6,8 @@ use crate::draw::place::projection::places::shown_places;
 use crate::draw::place::projection::{self, Projection, ToBeSeen};
 use crate::draw::prelude::*;
 use crate::draw::subject::roominess;
-use crate::draw::symbol::ground::{Foot, Ground, place_grounds};
-use crate::draw::symbol::placed::{Symbol, symbol_sizes};
+use crate::draw::symbol::ground::{Ground, GroundSpot};
+use crate::draw::symbol::placed::{Symbol, one_place, symbol_sizes};
 use crate::draw::symbol::symbols::{driven_slides, side_of_slide};
 
 /// The room for the joints.
@@ -53,27 +53,55 @@ impl<'a> Kinematic<'a> {
         out
     }
 
-    /// Returns the grounds where there is room.
+    /// Returns the ground at each place of the frame's joints, in the direction with the most room.
     fn find_grounds(&self) -> Vec<Ground> {
-        let moving = (0..self.links.len()).filter(|&l| !self.is_frame(self.links[l].0));
-        let end = |l: usize| Some((self.links[l].1[0], self.loose_end(l)?));
-        let loose: Vec<(usize, Point)> = moving.filter_map(end).collect();
-        let feet: Vec<Foot> = (0..self.spots.len()).map(|i| self.foot_of(i)).collect();
-        let frame = self.subject.mechanism.frame_link();
-        place_grounds(&feet, &self.links, frame, &loose)
+        let mut out: Vec<Ground> = Vec::new();
+        let frame = self.links.iter().find(|(l, _)| self.is_frame(*l));
+        let of = frame.map_or(&[][..], |(_, of)| of);
+        for (n, &i) in of.iter().enumerate() {
+            let Spot { at, rect, .. } = self.spots[i];
+            let is_here = |k: &usize| one_place(self.spots[*k].at, at);
+            if of[..n].iter().any(is_here) {
+                continue;
+            }
+            let (here, elsewhere): (Vec<usize>, Vec<usize>) =
+                (0..self.spots.len()).partition(is_here);
+            let spot = GroundSpot {
+                at,
+                dirs: self.directions_out(at, &here),
+                room: here.iter().fold(rect, |r, &k| r.with(&self.spots[k].rect)),
+                rail: here
+                    .iter()
+                    .filter(|k| of.contains(k))
+                    .find_map(|&k| self.rail_of(k)),
+            };
+            let elsewhere = elsewhere.into_iter().map(|k| self.spots[k].rect);
+            out.extend(spot.best_ground(&elsewhere.collect::<Vec<_>>(), &out));
+        }
+        out
     }
 
-    /// Returns a joint as the ground needs it: a block seen from the side has a rail.
-    fn foot_of(&self, i: usize) -> Foot {
+    /// Returns the directions in which moving links leave some joints: to their other joints, and to their free ends.
+    fn directions_out(&self, at: Point, here: &[usize]) -> Vec<Point> {
+        let leaves = |row: &usize| {
+            let (link, of) = &self.links[*row];
+            !self.is_frame(*link) && of.iter().any(|j| here.contains(j))
+        };
+        let ends = (0..self.links.len()).filter(leaves).flat_map(|row| {
+            let others = self.links[row].1.iter().filter(|j| !here.contains(j));
+            let others = others.map(|&j| self.spots[j].at);
+            others.chain(self.loose_end(row))
+        });
+        ends.map(|end| sub(end, at)).collect()
+    }
+
+    /// Returns the direction on paper of a block that slides, and how far its side is from its middle. `None` if it is seen from its end.
+    fn rail_of(&self, i: usize) -> Option<(Point, f64)> {
         let spot = &self.spots[i];
         let of = &self.subject.mechanism.joints[spot.joint].joint_type;
         let along = self.projection.view.flat_vector(self.places[i].z);
-        let side = side_of_slide(of).filter(|_| plane_norm(along) > 0.5);
-        Foot {
-            at: spot.at,
-            room: spot.rect,
-            slide: side.map(|side| (unit(along), side * spot.symbol.size + 2.0)),
-        }
+        let side = side_of_slide(of).filter(|_| plane_norm(along) > 0.5)?;
+        Some((unit(along), side * spot.symbol.size + 2.0))
     }
 }
 

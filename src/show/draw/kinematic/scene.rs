@@ -5,7 +5,7 @@
 use crate::draw::kinematic::body::{Arrow, known_loads};
 use crate::draw::kinematic::moving::frame::Carried;
 use crate::draw::kinematic::moving::{Moved, flag_row, poses_of};
-use crate::draw::kinematic::{Kinematic, MovingPicture, Words};
+use crate::draw::kinematic::{Kinematic, MovingPicture};
 use crate::draw::prelude::*;
 use crate::draw::symbol::pieces::{Piece, round_hundredth};
 use crate::draw::symbol::placed::Swap;
@@ -195,12 +195,7 @@ impl Kinematic<'_> {
         area: Rect,
         legend: Vec<(Swatch, String)>,
     ) -> Drawing {
-        let words = Words {
-            shows: None,
-            more: String::new(),
-            legend,
-        };
-        self.on_sheet(area, words, |sheet, by| {
+        self.on_sheet(area, legend, |sheet, by| {
             scene.origin = by.map(round_hundredth);
             let area = area.moved_by(by);
             scene.room = [area.left, area.top, area.right, area.bottom].map(round_hundredth);

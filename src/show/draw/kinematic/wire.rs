@@ -1,7 +1,8 @@
-//! Shapes fixed to links, in space: bars, plates, arcs about the common point of the axes in spherical linkages, the pitch circles of gears, and lines that show how a link moves.
+//! Shapes fixed to links, in space: bars, plates, arcs about the common point of the axes in spherical linkages, and bars that bow out to
+//! pass another.
 
 use crate::draw::kinematic::Kinematic;
-use crate::draw::kinematic::body::{Body, find_bows};
+use crate::draw::kinematic::body::{Body, DrawnWire, Wire, WireForm, find_bows};
 use crate::draw::place::projection::places::meeting_parameter;
 use crate::draw::place::projection::{cross, norm, scale as times};
 use crate::draw::prelude::*;
@@ -11,72 +12,6 @@ const BOW: i32 = 12;
 const ARC: i32 = 16;
 /// Axes that pass each other by more than this share of the distance from where they meet do not meet.
 const MEET: f64 = 1e-4;
-
-/// How the points of a shape are joined.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum WireForm {
-    /// A link: a plate between its points, or a bar where they look to be in a row.
-    Hull,
-    /// A link as an arc.
-    Arc,
-    /// A bar that bows out to pass another.
-    Bow,
-    /// A line.
-    Line,
-    /// A closed line.
-    Loop,
-}
-
-impl WireForm {
-    /// Returns the form for programs.
-    pub(super) fn word(self) -> &'static str {
-        match self {
-            WireForm::Hull => "hull",
-            WireForm::Arc | WireForm::Bow | WireForm::Line => "line",
-            WireForm::Loop => "loop",
-        }
-    }
-}
-
-/// A shape fixed to a link.
-#[derive(Debug, Clone)]
-pub(super) struct Wire {
-    /// The place of its link among those drawn.
-    pub(super) row: usize,
-    /// The class of the style sheet; that of a link follows from how it is seen.
-    pub(super) class: &'static str,
-    pub(super) form: WireForm,
-    pub(super) points: Vec<Vector>,
-}
-
-/// A shape on paper.
-#[derive(Debug, Clone)]
-pub(super) struct DrawnWire {
-    pub(super) row: usize,
-    pub(super) class: String,
-    /// Whether it is the link itself.
-    pub(super) link: bool,
-    /// Fewer than two where all joints of a link are in one place.
-    pub(super) points: Vec<Point>,
-    pub(super) closed: bool,
-}
-
-impl DrawnWire {
-    /// Returns its segments.
-    pub(super) fn segments(&self) -> impl Iterator<Item = (Point, Point)> + '_ {
-        let n = self.points.len();
-        let count = if self.closed { n } else { n.saturating_sub(1) };
-        (0..count).map(move |i| (self.points[i], self.points[(i + 1) % n]))
-    }
-
-    /// Returns its middle. That of a line is halfway along.
-    pub(super) fn middle(&self) -> Point {
-        if self.closed || self.points.len() < 3 {
-            return mean(self.points.iter().copied());
-        }
-        self.points[self.points.len() / 2]
-    }
-}
 
 impl Kinematic<'_> {
     /// Returns the shapes of the moving links. Bars that would lie on others bow out.

@@ -1,6 +1,6 @@
 //! First places for the joints of a scheme.
 
-use crate::draw::place::graph::{Graph, Net};
+use crate::draw::place::graph::{Graph, Net, place_hubs};
 use crate::draw::prelude::*;
 use itertools::Itertools;
 use std::cmp::Reverse;
@@ -47,21 +47,11 @@ fn fit_hint(graph: &Graph, hint: &[Point]) -> Option<Vec<Point>> {
         .then(|| hint.iter().map(|&p| scale(p, 1.3 / usual)).collect())
 }
 
+/// Returns the places of all nodes, from those of the joints.
 fn with_hubs(graph: &Graph, net: &Net, joints: &[Point]) -> Vec<Point> {
-    let mut at = joints.to_vec();
-    for (of, hub) in graph.links.iter().zip(&net.hub) {
-        if hub.is_some() {
-            let middle = mean(of.iter().map(|&j| joints[j]));
-            let from = mean(joints.iter().copied());
-            let out = if of.len() == 1 {
-                scale(sub(middle, from), 0.3)
-            } else {
-                [0.0, 0.0]
-            };
-            at.push(add(middle, out));
-        }
-    }
-    at
+    let hubs = place_hubs(graph, net, joints).into_iter().zip(&net.hub);
+    let hubs = hubs.filter(|(_, hub)| hub.is_some()).map(|(at, _)| at);
+    joints.iter().copied().chain(hubs).collect()
 }
 
 /// Returns Tutte's drawing: a contour on a circle, and every other node in the middle of its neighbours.

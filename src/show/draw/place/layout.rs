@@ -7,7 +7,7 @@
 //! # Sources
 //! Gansner, Koren & North, "Graph drawing by stress majorization", GD 2004. Tutte, "How to draw a graph", 1963.
 
-use crate::draw::place::graph::{Graph, Net, build_net};
+use crate::draw::place::graph::{Graph, Net, build_net, place_hubs};
 use crate::draw::place::initial_layout::{self, Start};
 use crate::draw::place::layout_penalty::Crowding;
 use crate::draw::prelude::*;
@@ -130,54 +130,6 @@ fn level_layout(graph: &Graph, at: &mut [Point]) {
     if down[1] < -0.1 {
         at.iter_mut().for_each(|p| p[1] = -p[1]);
     }
-}
-
-/// Returns the middles of links. Bars between the same two joints bow in different directions, and free ends point outward.
-fn place_hubs(graph: &Graph, net: &Net, joints: &[Point]) -> Vec<Point> {
-    let middle = mean(joints.iter().copied());
-    let mut out: Vec<Point> = Vec::new();
-    for (l, of) in graph.links.iter().enumerate() {
-        let centre = mean(of.iter().map(|&j| joints[j]));
-        out.push(match (of.len(), net.hub[l]) {
-            (1, _) => {
-                // away from the other link of the joint
-                let others = graph.links.iter().enumerate();
-                let other = others
-                    .filter(|(m, o)| *m != l && o.contains(&of[0]))
-                    .flat_map(|(_, o)| o.iter().filter(|&&j| j != of[0]))
-                    .map(|&j| joints[j]);
-                let from = mean(other);
-                let away = if from == [0.0; 2] && joints.len() == 1 {
-                    [1.0, 0.0]
-                } else {
-                    sub(centre, if joints.len() > 2 { middle } else { from })
-                };
-                let twin =
-                    out.iter().any(|h| plane_norm(sub(*h, centre)) < 0.8) && joints.len() == 1;
-                let side = if twin { -1.0 } else { 1.0 };
-                add(centre, scale(unit(away), side * 0.75))
-            }
-            (2, Some(_)) => {
-                let along = unit(sub(joints[of[1]], joints[of[0]]));
-                let ends = [of[0].min(of[1]), of[0].max(of[1])];
-                let twins = graph.links[..l]
-                    .iter()
-                    .filter(|o| o.len() == 2 && ends.iter().all(|e| o.contains(e)))
-                    .count();
-                let bow = 0.42 * if twins % 2 == 0 { 1.0 } else { -1.0 } * (1 + twins / 2) as f64;
-                let mut turn = if of[0] == ends[0] { bow } else { -bow };
-                let mut polygons = graph.links.iter().filter(|o| o.len() > 2);
-                if let Some(p) = polygons.find(|o| of.iter().all(|j| o.contains(j))) {
-                    // away from the polygon it lies along
-                    let from = sub(centre, mean(p.iter().map(|&j| joints[j])));
-                    turn = turn.abs().max(0.5) * dot(from, [-along[1], along[0]]).signum();
-                }
-                add(centre, [-along[1] * turn, along[0] * turn])
-            }
-            _ => centre,
-        });
-    }
-    out
 }
 
 /// Returns the lengths of the shortest paths between nodes, or a large length if there is no path.

@@ -2,7 +2,7 @@
 
 use crate::draw::place::graph::{Graph, joint_ring, link_radius};
 use crate::draw::prelude::*;
-use crate::svg::plane::{are_apart, polygon_area, segments_cross};
+use crate::svg::plane::{are_apart, polygon_area, segments_cross, sides_of};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 
@@ -65,7 +65,7 @@ impl Crowding<'_> {
             3 => 1.1,
             m => 2.0 * link_radius(m) * (std::f64::consts::PI / m as f64).sin(),
         };
-        let mut sum: f64 = ring_sides(ring)
+        let mut sum: f64 = sides_of(ring)
             .map(|(a, b)| {
                 let off = plane_norm(sub(at[a], at[b])) - wish;
                 0.4 * off * off * if m > 3 { 0.4 } else { 1.0 }
@@ -98,7 +98,7 @@ impl Crowding<'_> {
 
     fn stranger_cost(&self, p: Point, ring: &[usize], polygon: &[Point], at: &[Point]) -> f64 {
         let mut sum = 0.0;
-        for (a, b) in ring_sides(ring) {
+        for (a, b) in sides_of(ring) {
             if is_beyond(p, at[a], at[b]) {
                 continue;
             }
@@ -116,8 +116,8 @@ impl Crowding<'_> {
     /// Crossings of two links.
     fn crossing_cost(&self, one: &[usize], other: &[usize], at: &[Point]) -> f64 {
         let mut sum = 0.0;
-        for (a, b) in ring_sides(one) {
-            for (c, d) in ring_sides(other) {
+        for (a, b) in sides_of(one) {
+            for (c, d) in sides_of(other) {
                 if a != c
                     && a != d
                     && b != c
@@ -187,16 +187,6 @@ impl Crowding<'_> {
             }
         }
     }
-}
-
-/// Returns the sides of a polygon, or the single bar.
-fn ring_sides(ring: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
-    let count = if ring.len() > 2 {
-        ring.len()
-    } else {
-        ring.len().saturating_sub(1)
-    };
-    (0..count).map(|i| (ring[i], ring[(i + 1) % ring.len()]))
 }
 
 /// Returns the least and the greatest coordinates of a ring.

@@ -8,7 +8,7 @@ use crate::geom::expr::Expr;
 use crate::geom::extent::box_diagonal;
 pub(crate) use crate::geom::vector::{Vector, add, cross, dot, length as norm, scale, sub};
 use crate::model::mechanism::Frame;
-use crate::svg::plane::{are_apart, plane_norm as norm2, segments_cross, sub as sub2};
+use crate::svg::plane::{are_apart, plane_norm as norm2, segments_cross, sides_of, sub as sub2};
 
 pub(crate) mod places;
 mod view;
@@ -304,7 +304,8 @@ fn crowding_cost(
         }
     }
     let moving = links.iter().filter(|(l, _)| *l != frame);
-    let moving: Vec<_> = moving.map(|(_, of)| (of, side_pairs(of))).collect();
+    let moving: Vec<(_, Vec<(usize, usize)>)> =
+        moving.map(|(_, of)| (of, sides_of(of).collect())).collect();
     for (n, (of, sides)) in moving.iter().enumerate() {
         for &(a, b) in sides {
             for (j, &p) in on.iter().enumerate() {
@@ -324,13 +325,6 @@ fn crowding_cost(
         }
     }
     cost
-}
-
-/// Returns the sides of a link.
-fn side_pairs(of: &[usize]) -> Vec<(usize, usize)> {
-    let n = of.len();
-    let count = if n > 2 { n } else { n.saturating_sub(1) };
-    (0..count).map(|i| (of[i], of[(i + 1) % n])).collect()
 }
 
 fn places_extent(places: &[JointInSpace]) -> f64 {

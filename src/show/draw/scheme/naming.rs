@@ -3,9 +3,9 @@
 use crate::draw::naming::{Name, place_names};
 use crate::draw::prelude::*;
 use crate::draw::scheme::{Scheme, Share};
-use crate::draw::sheet::shapes::{HALF, grid_points, outline_sides, rounded_path};
+use crate::draw::sheet::shapes::{HALF, grid_points, rounded_path};
 use crate::svg::labels::{AvoidedLine, LabelPlace, Wish};
-use crate::svg::plane::polygon_area;
+use crate::svg::plane::{polygon_area, sides_of};
 
 impl Scheme<'_> {
     /// Returns the places and texts of the ids of joints and links and of the numbers of contours, in this order.
@@ -39,7 +39,7 @@ impl Scheme<'_> {
                 ends: (hub, corner),
                 weight,
             }));
-            for (a, b) in outline_sides(&corners) {
+            for (a, b) in sides_of(&corners) {
                 let along = unit(sub(b, a));
                 let off = scale([-along[1], along[0]], HALF);
                 for side in [off, scale(off, -1.0)] {
@@ -100,7 +100,7 @@ impl Scheme<'_> {
             return out;
         }
         let mut out = Vec::new();
-        for (a, b) in outline_sides(&corners) {
+        for (a, b) in sides_of(&corners) {
             for (step, t) in [0.5, 0.44, 0.56, 0.38, 0.62, 0.32, 0.68].iter().enumerate() {
                 let p = add(a, scale(sub(b, a), *t));
                 out.push((p, 0.05 * step as f64));
@@ -147,8 +147,8 @@ impl Scheme<'_> {
     /// Returns the sides of all links.
     fn all_sides(&self) -> Vec<(Point, Point)> {
         let links = 0..self.rings.len();
-        let sides = links.flat_map(|l| outline_sides(&self.link_corners(l)));
-        sides.collect()
+        let corners = links.map(|l| self.link_corners(l)).collect::<Vec<_>>();
+        corners.iter().flat_map(|c| sides_of(c)).collect()
     }
 
     /// Returns points of a contour that lie in no smaller contour and on no link, and the area in square pixels that each stands for.
@@ -222,11 +222,9 @@ impl Scheme<'_> {
 
     /// Returns a contour without an area as a narrow band along it.
     pub(super) fn contour_band(&self, c: usize) -> String {
-        let sides = outline_sides(&self.contour_outline(c));
-        sides
-            .iter()
-            .map(|&(a, b)| rounded_path(&[a, b], BAND))
-            .collect()
+        let outline = self.contour_outline(c);
+        let sides = sides_of(&outline);
+        sides.map(|(a, b)| rounded_path(&[a, b], BAND)).collect()
     }
 
     pub(super) fn draw_contour(&self, sheet: &mut Sheet, c: usize, d: &str) {

@@ -1,6 +1,7 @@
 //! Shapes of a drawing: paths and circles; polygons and bars with round corners, their hatching, and points within them.
 
 use crate::draw::prelude::*;
+use crate::svg::plane::{sides_of, twice_area};
 use crate::svg::xml::format_number;
 
 /// A finished piece of drawing.
@@ -53,24 +54,12 @@ impl Shape {
 /// Half the width of a bar.
 pub(crate) const HALF: f64 = 8.5;
 
-/// Returns the sides of a polygon, or the pieces of a bar.
-pub(crate) fn outline_sides(corners: &[Point]) -> Vec<(Point, Point)> {
-    let open = corners.len() < 3;
-    let count = corners.len() - usize::from(open && !corners.is_empty());
-    (0..count)
-        .map(|i| (corners[i], corners[(i + 1) % corners.len()]))
-        .collect()
-}
-
 /// Returns the outline of a polygon or bar, `r` away from it, with round corners.
 pub(crate) fn rounded_path(corners: &[Point], r: f64) -> String {
     let n = corners.len();
     let mut d = String::new();
-    let turn: f64 = (0..n)
-        .map(|i| cross(corners[i], corners[(i + 1) % n]))
-        .sum();
     let mut corners = corners.to_vec();
-    if turn < 0.0 {
+    if twice_area(&corners) < 0.0 {
         corners.reverse();
     }
     let normal = |i: usize| {
@@ -112,8 +101,7 @@ pub(crate) fn hatch_path(corners: &[Point], half: f64, step: f64) -> String {
             path_data(&[sub(on, off), add(on, off)], false)
         })
     };
-    let sides = outline_sides(corners).into_iter();
-    sides.flat_map(strokes).collect()
+    sides_of(corners).flat_map(strokes).collect()
 }
 
 /// Returns the points of a grid within a polygon.

@@ -1,21 +1,11 @@
 //! The ground of a kinematic scheme: where the frame is, once for all joints of one place.
 
 use crate::draw::prelude::*;
-use crate::draw::symbol::placed::one_place;
 
 /// Half the hatched line under a pivot.
 const PIVOT: f64 = 11.0;
 /// Half the hatched line that a block slides along.
 const RAIL: f64 = 24.0;
-
-/// A joint as the ground has to know it.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Foot {
-    pub(crate) at: Point,
-    pub(crate) room: Rect,
-    /// The direction of a block's slide on paper, and how far its side is from its middle.
-    pub(crate) slide: Option<(Point, f64)>,
-}
 
 /// The ground at a joint: from the joint to the middle of the hatched line.
 pub(crate) struct Ground {
@@ -90,14 +80,14 @@ impl Ground {
 }
 
 /// A place of the frame's joints.
-struct GroundSpot {
-    at: Point,
+pub(crate) struct GroundSpot {
+    pub(crate) at: Point,
     /// The directions of the moving links.
-    dirs: Vec<Point>,
+    pub(crate) dirs: Vec<Point>,
     /// The room of the symbols.
-    room: Rect,
-    /// The direction of a block's slide, and how far its side is from its middle.
-    rail: Option<(Point, f64)>,
+    pub(crate) room: Rect,
+    /// The direction of a block's slide on paper, and how far its side is from its middle.
+    pub(crate) rail: Option<(Point, f64)>,
 }
 
 impl GroundSpot {
@@ -123,16 +113,15 @@ impl GroundSpot {
         )
     }
 
-    /// Returns the ground with the least cost: how far it is from upright, what it covers, and the links in its
-    /// direction.
-    fn best_ground(&self, feet: &[Foot], others: &[Ground]) -> Option<Ground> {
+    /// Returns the ground with the least cost: how far it is from upright, what it covers of symbols elsewhere and of other grounds, and the
+    /// links in its direction.
+    pub(crate) fn best_ground(&self, elsewhere: &[Rect], others: &[Ground]) -> Option<Ground> {
         let tried = (0..16).map(|step| {
             let (ground, dir) = self.ground_at(step);
             // straight down is best, then what is clear
             let aslant = if step % 4 == 0 { 0.0 } else { 0.9 };
             let near = ground.ground_room().grown_by(1.0);
-            let foreign = feet.iter().filter(|f| !one_place(f.at, self.at));
-            let symbols = foreign.filter(|f| near.overlaps(&f.room)).count();
+            let symbols = elsewhere.iter().filter(|r| near.overlaps(r)).count();
             let grounds = others
                 .iter()
                 .filter(|g| g.ground_room().overlaps(&near))
@@ -146,55 +135,4 @@ impl GroundSpot {
         let best = tried.reduce(|a, b| if b.0 < a.0 - 1e-9 { b } else { a });
         best.map(|(_, ground)| ground)
     }
-}
-
-/// Returns the directions in which moving links leave the joints `here`: to their other joints, and to their free ends.
-fn directions_out(
-    at: Point,
-    here: &[usize],
-    feet: &[Foot],
-    moving: &[&[usize]],
-    loose: &[(usize, Point)],
-) -> Vec<Point> {
-    let joined = moving
-        .iter()
-        .filter(|of| of.iter().any(|j| here.contains(j)));
-    let ends = joined.flat_map(|of| of.iter().filter(|j| !here.contains(j)));
-    let ends = ends.map(|&j| feet[j].at);
-    let free = loose.iter().filter(|(j, _)| here.contains(j));
-    let ends = ends.chain(free.map(|(_, end)| *end));
-    ends.map(|end| sub(end, at)).collect()
-}
-
-/// Returns the ground at each place of the frame's joints, in the direction with the most room. `loose` gives the free ends
-/// of links with their joints.
-pub(crate) fn place_grounds(
-    feet: &[Foot],
-    links: &[(LinkId, Vec<usize>)],
-    frame: LinkId,
-    loose: &[(usize, Point)],
-) -> Vec<Ground> {
-    let mut out: Vec<Ground> = Vec::new();
-    let Some((_, of)) = links.iter().find(|(l, _)| *l == frame) else {
-        return out;
-    };
-    let moving = links.iter().filter(|(l, _)| *l != frame);
-    let moving: Vec<&[usize]> = moving.map(|(_, of)| of.as_slice()).collect();
-    for (n, &i) in of.iter().enumerate() {
-        let Foot { at, room, .. } = feet[i];
-        let there = |k: &usize| one_place(feet[*k].at, at);
-        if of[..n].iter().any(there) {
-            continue;
-        }
-        let here: Vec<usize> = (0..feet.len()).filter(there).collect();
-        let mut own = here.iter().filter(|k| of.contains(k));
-        let spot = GroundSpot {
-            at,
-            dirs: directions_out(at, &here, feet, &moving, loose),
-            room: here.iter().fold(room, |r, &k| r.with(&feet[k].room)),
-            rail: own.find_map(|&k| feet[k].slide),
-        };
-        out.extend(spot.best_ground(feet, &out));
-    }
-    out
 }

@@ -1,6 +1,7 @@
 //! Pieces of symbols in the frame of a joint, and how they look from a side.
 
 use crate::draw::prelude::*;
+use crate::svg::plane::twice_area;
 use serde::{Deserialize, Serialize};
 
 /// A joint's frame on paper.
@@ -163,12 +164,6 @@ fn upper_side(along: Point) -> Point {
     let [x, y] = unit(along);
     let side = [y, -x];
     if side[1] > 1e-9 { [-y, x] } else { side }
-}
-
-/// Returns twice the area of a polygon. Negative if it turns to the left on paper.
-fn twice_area(points: &[Point]) -> f64 {
-    let next = points.iter().cycle().skip(1);
-    points.iter().zip(next).map(|(&a, &b)| cross(a, b)).sum()
 }
 
 /// Returns a circle as a polygon. Returns a single point if the radius is 0.

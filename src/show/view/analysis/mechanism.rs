@@ -121,24 +121,21 @@ fn describe_search(m: &Mechanism) -> String {
 fn describe_workload(m: &Mechanism) -> Option<String> {
     let loads = &m.loads;
     let masses = m.links.iter().filter(|l| l.mass.is_some()).count();
-    let counted = [
-        (masses, "link with mass", "links with mass"),
-        (loads.forces.len(), "force", "forces"),
-        (loads.moments.len(), "moment", "moments"),
-        (loads.stiffness.len(), "stiffness", "stiffnesses"),
-        (loads.misalignments.len(), "misalignment", "misalignments"),
-    ];
     let mut parts = Vec::new();
     if loads.gravity.is_some() {
         parts.push("gravity".to_owned());
     }
-    for (n, one, many) in counted {
-        match n {
-            0 => {}
-            1 => parts.push(format!("1 {one}")),
-            n => parts.push(format!("{n} {many}")),
-        }
+    if masses > 0 {
+        parts.push(count_noun(masses, "link") + " with mass");
     }
+    let counted = [
+        (loads.forces.len(), "force"),
+        (loads.moments.len(), "moment"),
+        (loads.stiffness.len(), "stiffness table"),
+        (loads.misalignments.len(), "misalignment"),
+    ];
+    let counted = counted.into_iter().filter(|(n, _)| *n > 0);
+    parts.extend(counted.map(|(n, noun)| count_noun(n, noun)));
     if loads.drive_speeds.iter().any(|v| *v != 0.0) {
         parts.push("drive speed".to_owned());
     }

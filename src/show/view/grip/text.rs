@@ -37,8 +37,6 @@ impl GripReport<'_> {
         self.write_inputs(&mut out);
         out.add_line("");
         self.write_diameters(&mut out);
-        out.add_line("\n  The arms and their parts, l1 = l11 + l12 and l2 = l21 - l22:\n");
-        self.write_arms(&mut out);
         let hardest = self.hardest_place().map(|at| &rows[at]);
         let held =
             hardest.and_then(|d| Some((d.hardest.as_ref()?.held_forces()?, d.pose.as_ref()?)));
@@ -202,18 +200,6 @@ impl GripReport<'_> {
             cells
         };
         out.add_table(&heads, self.found.study.rows.iter().enumerate().map(row));
-    }
-
-    /// Adds each arm as the part of the lever and the part of the prism.
-    fn write_arms(&self, out: &mut Report) {
-        let symbol = self.file.length_unit.symbol;
-        let heads = ["D", "l11", "l12", "l1", "l21", "l22", "l2"].map(|n| format!("{n}, {symbol}"));
-        let row = |d: &DiameterRow| {
-            let a = d.arms;
-            let all = [d.diameter, a.l11, a.l12, a.l1, a.l21, a.l22, a.l2];
-            all.map(|x| self.format_bare(x)).to_vec()
-        };
-        out.add_table(&heads.join(" | "), self.found.study.rows.iter().map(row));
     }
 }
 

@@ -253,13 +253,6 @@ impl PassedOver {
     }
 }
 
-/// Adds skipped files to the JSON of findings, if there are any.
-pub(super) fn in_json(out: &mut Value, all: &[PassedOver]) {
-    if !all.is_empty() {
-        out["passed_over"] = json!(all);
-    }
-}
-
 /// Another type for a joint of a CAD assembly.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct TypeChange {

@@ -72,12 +72,6 @@ impl Coupled<'_> {
         })
     }
 
-    /// Returns true if it passes more than a fraction of the greatest force and moment of a self-stress, 1 N.
-    pub(super) fn is_loaded(&self, size: f64) -> bool {
-        let mut ends = self.coupled_ends().into_iter();
-        ends.any(|(_, effort, unit)| effort.abs() > 1e-9 * if unit == "N" { 1.0 } else { size })
-    }
-
     /// Returns what it passes at both joints and at the teeth, in words.
     fn describe_efforts(&self) -> String {
         let ends = self.coupled_ends().into_iter();
@@ -146,17 +140,6 @@ pub(super) fn write_couplings(out: &mut Report, all: &[Coupled<'_>]) {
     );
     out.add_line("");
     write_teeth(out, all);
-}
-
-/// Adds what couplings, which are rigid, pass if joints are elastic.
-pub(super) fn write_elastic(out: &mut Report, all: &[Coupled<'_>]) {
-    for c in all {
-        out.add_line(format!(
-            "Coupling {}, rigid, passes {}",
-            c.name(),
-            c.describe_efforts()
-        ));
-    }
 }
 
 /// Adds the greatest that each coupling passes over some positions; `place` formats a position.

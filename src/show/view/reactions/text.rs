@@ -3,9 +3,7 @@
 use crate::statics::reactions::contact::{ContactForce, Touch};
 use crate::statics::reactions::{JointReaction, NEARLY_SINGULAR, Uniqueness};
 use crate::view::prelude::*;
-use crate::view::reactions::couplings::{
-    effort_unit, state_couplings, write_couplings, write_elastic,
-};
+use crate::view::reactions::couplings::{effort_unit, state_couplings, write_couplings};
 use crate::view::reactions::{Reactions, is_possible, open_components, touch_word};
 
 /// The remedy for a file that states no loads.
@@ -31,9 +29,6 @@ pub(super) fn pushing_remedy() -> String {
         typed_option("unilateral", "")
     )
 }
-
-/// Maximum number of self-stresses in a text.
-const STRESSES: usize = 12;
 
 /// Returns a number of self-stresses in words.
 fn count_stresses(n: usize) -> String {
@@ -77,7 +72,15 @@ impl Reactions<'_> {
         }
         self.write_equilibrium(&mut out);
         if !s.self_stresses.is_empty() {
-            self.write_family(&mut out);
+            let push = match s.choice {
+                Uniqueness::Pushing => " with which contacts still push",
+                _ => "",
+            };
+            out.add_line(format!(
+                "\nThe redundant constraints leave these reactions undetermined: any combination of the {} may be added{push}; {} has them",
+                count_stresses(s.self_stresses.len()),
+                typed_option("format", "json")
+            ));
         }
         self.write_elastic(&mut out);
         out.text()
@@ -263,33 +266,6 @@ impl Reactions<'_> {
         }
     }
 
-    /// Adds the self-stresses that may be added, by the joints each loads.
-    fn write_family(&self, out: &mut Report) {
-        let s = self.found;
-        let open = s.self_stresses.len();
-        let push = match s.choice {
-            Uniqueness::Pushing => " with which contacts still push",
-            _ => "",
-        };
-        out.add_line(format!(
-            "\nThe redundant constraints leave these reactions undetermined: any combination of the {} may be added{push}",
-            count_stresses(open)
-        ));
-        let both = s.self_stresses.iter().zip(&s.coupling_stresses);
-        for (i, (stress, coupled)) in both.take(STRESSES).enumerate() {
-            let loaded = stress
-                .iter()
-                .filter(|r| r.force_size() > 1e-9 || r.moment_size() > 1e-9 * s.size);
-            let coupled = state_couplings(self.of, self.state, coupled).into_iter();
-            let coupled = coupled.filter(|c| c.is_loaded(s.size)).map(|c| c.name());
-            let joints = loaded.map(|r| self.joint_name(r.joint).to_owned());
-            out.add_line(format!("  {}: {}", i + 1, joints.chain(coupled).join(", ")));
-        }
-        if open > STRESSES {
-            out.add_line(format!("  and {} more", open - STRESSES));
-        }
-    }
-
     /// Says which of the family elastic joints choose, or what to state to see it.
     fn write_elastic(&self, out: &mut Report) {
         let s = self.found;
@@ -304,7 +280,7 @@ impl Reactions<'_> {
             ));
             self.write_joints(out, list);
             let coupled = s.elastic_couplings.as_deref().unwrap_or_default();
-            write_elastic(out, &state_couplings(self.of, self.state, coupled));
+            write_couplings(out, &state_couplings(self.of, self.state, coupled));
         } else if open > 0 && s.choice != Uniqueness::Pushing {
             out.add_line(
                 "State [workload.stiffness.default] linear and angular, and [[workload.misalignment]], to compute the actual reactions.",

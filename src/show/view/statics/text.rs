@@ -6,7 +6,7 @@ use crate::statics::contour_group::ContourGroup;
 use crate::statics::contour_group::pose::GroupReactions;
 use crate::statics::contour_group::solutions::{GroupMethod, GroupSolutions};
 use crate::statics::cycle::{DrivenStructure, Moment};
-use crate::statics::kinetostatics::{LinkInertia, Worth};
+use crate::statics::kinetostatics::Worth;
 use crate::statics::planar::PairId;
 use crate::view::prelude::*;
 use crate::view::reactions::text::{NO_STRAIN, no_loads};
@@ -77,7 +77,6 @@ impl StaticsData<'_> {
         }
         if s.loaded {
             self.write_joints(&mut out);
-            self.write_inertia(&mut out);
             self.write_summary(&mut out);
         } else {
             let misalignments = self.of.loads.misalignments.len();
@@ -254,44 +253,6 @@ impl StaticsData<'_> {
         out.add_line("Greatest reaction of each joint (equilibrium of all links)\n");
         let (at, n) = (self.unit(), prefix);
         let heads = format!("joint |  | links | force, {n}N | at, {at} | moment, {n}N·m");
-        out.add_table(&heads, rows);
-        out.add_line("");
-    }
-
-    /// Adds the greatest acceleration and inertia force of every link, if drives have speeds.
-    fn write_inertia(&self, out: &mut Report) {
-        let moments = &self.found.moments;
-        let links = moments.first().map_or(0, |x| x.links.len());
-        let row = |i: usize| {
-            let most = |of: &dyn Fn(&LinkInertia) -> f64| {
-                let each = moments.iter().map(|x| (of(&x.links[i]), x.drive));
-                each.max_by(|a, b| a.0.total_cmp(&b.0))
-            };
-            let (acceleration, at) = most(&|l| vector_size(l.acceleration))?;
-            let (turning, _) = most(&|l| l.angular_acceleration.abs())?;
-            let (force, _) = most(&|l| vector_size(l.force))?;
-            let (moment, _) = most(&|l| l.moment.abs())?;
-            let name = &self.planar_mechanism().bodies[moments.first()?.links[i].body].name;
-            let figures = [
-                acceleration,
-                self.shown_position(at),
-                turning,
-                force,
-                moment,
-            ]
-            .map(five_digits);
-            let row = [name.clone()].into_iter().chain(figures);
-            (acceleration > 0.0 || turning > 0.0).then(|| row.collect_vec())
-        };
-        let rows = (0..links).filter_map(row).collect_vec();
-        if rows.is_empty() {
-            return;
-        }
-        out.add_line("Greatest acceleration and inertia force of each link with mass\n");
-        let at = self.unit();
-        let heads = format!(
-            "link | a of centre, m/s² | at, {at} | ε, rad/s² | inertia force, N | inertia moment, N·m"
-        );
         out.add_table(&heads, rows);
         out.add_line("");
     }

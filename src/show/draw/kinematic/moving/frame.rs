@@ -1,7 +1,6 @@
 //! One picture of a moving scheme: where a pose has carried everything.
 
-use crate::draw::kinematic::body::{Marked, draw_mark};
-use crate::draw::kinematic::wire::{Wire, WireForm};
+use crate::draw::kinematic::body::{Marked, Wire, WireForm, draw_mark};
 use crate::draw::kinematic::{Kinematic, MovingPicture};
 use crate::draw::place::projection::{cross, norm, scale as times};
 use crate::draw::prelude::*;
@@ -255,11 +254,6 @@ impl Kinematic<'_> {
     /// Returns the points of a link.
     pub(crate) fn points_of(&self, link: LinkId) -> impl Iterator<Item = &Marked> {
         self.points.iter().filter(move |p| p.link == link)
-    }
-
-    /// Returns all points of the paths.
-    pub(crate) fn traced_points(&self) -> impl Iterator<Item = Point> + '_ {
-        self.traces.0.iter().flatten().copied()
     }
 
     pub(crate) fn draw_traces(&self, sheet: &mut Sheet) {
