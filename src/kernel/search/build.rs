@@ -3,6 +3,7 @@
 pub(in crate::search) mod at_most;
 pub(in crate::search) mod known_variants;
 pub(in crate::search) mod lanes;
+mod matching_halves;
 pub mod orders;
 pub(in crate::search) mod self_stress;
 pub(in crate::search) mod spanning_halves;

@@ -6,6 +6,7 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
+use crate::search::build::matching_halves::{Grouped, count_lookups, match_halves};
 use crate::search::build::self_stress::{Wanted, flat_stages, self_stress_space};
 use crate::search::build::spanning_pairs::{Bases, ZeroForms};
 use crate::search::diagram::layer::Nodes;
@@ -21,6 +22,8 @@ use crate::search::question::Question;
 use crate::search::reduce::lifetimes::Lifetime;
 use crate::search::reduce::self_stress_space::SelfStressSpace;
 
+/// Lookups of nodes that take about as long as a pair of them.
+const A_PAIR: usize = 5;
 /// Base of the checksum of the motions of kept links: the sum of their coordinates, each times a power of this. A nonzero
 /// motion has the sum zero as rarely as a nonzero number has the residue zero.
 const WEIGHT: i64 = 0x1e37_79b9_7f4a_7c15;
@@ -122,8 +125,8 @@ impl<'a> Halves<'a> {
     /// Also returns the different sets. Returns `None` if there are too many pairs, if the sets take too many bytes, or if cancelled.
     ///
     /// # Complexity
-    /// O(s³) field operations for each node, for s self-stresses that both halves reach; and that of [`Bases::completing_nodes`] for each
-    /// node of the front.
+    /// O(s³) field operations for each node, for s self-stresses that both halves reach; and that of [`match_halves`], or that of
+    /// [`Bases::completing_nodes`] for each node of the front.
     pub(in crate::search) fn join_halves(
         &self,
         part: usize,
@@ -140,6 +143,17 @@ impl<'a> Halves<'a> {
             .iter()
             .map(|[f, b]| f.len().saturating_mul(b.len()));
         let pairs = pairs.fold(0, usize::saturating_add);
+        let grouped = self.keeps.then(|| {
+            let front = (0..halves.front.len()).map(rows_of_front);
+            [
+                Grouped::group_nodes(front),
+                Grouped::group_nodes(back.iter().cloned()),
+            ]
+        });
+        let fewer = |[front, back]: &[Grouped; 2]| count_lookups(front, back) / A_PAIR < pairs;
+        if let Some(grouped) = grouped.filter(fewer) {
+            return match_halves(self.field, width - 1, &grouped, halves.bytes, cancelled);
+        }
         // Each node of the front may have a set with a bit for each node of the back.
         let bits = halves.front.len().saturating_mul(halves.back.len());
         if pairs / PAIRS > self.limits.nodes || bits / 8 > halves.bytes {

@@ -2,7 +2,7 @@
 //!
 //! Nodes with the same completions may add different vectors to the original joints. In coupled contours most do. Here one
 //! half of the variables is taken from the front and the other half from the back, until they meet. The pairs of nodes that
-//! complete each other are found by [tests](super::spanning_pairs). Nodes of the front with the same set of completing
+//! complete each other are [looked up](super::matching_halves) or tested. Nodes of the front with the same set of completing
 //! nodes are one node, and so are nodes of the back that complete the same nodes. From there on, each choice maps such a set
 //! to a set of the next layer, read from the edges of the back half. The result is the smallest diagram, and exact.
 //!
