@@ -61,8 +61,11 @@ impl Echelon {
         let Some(pivot) = v.iter().position(|&x| x != 0) else {
             return false;
         };
-        let scale = f.inv(v[pivot]);
-        v[pivot..].iter_mut().for_each(|x| *x = f.mul(*x, scale));
+        if v[pivot] != f.one() {
+            let scale = f.inv(v[pivot]);
+            let others = v[pivot..].iter_mut().filter(|x| **x != 0);
+            others.for_each(|x| *x = f.mul(*x, scale));
+        }
         let at = self.rows.partition_point(|(p, _)| *p < pivot);
         self.rows.insert(at, (pivot, v));
         true

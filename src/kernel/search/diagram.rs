@@ -219,34 +219,32 @@ pub(super) fn next_layer(
         .min(BATCH / (stage.child_effort(each) * choices.len()).max(1))
         .clamp(CUT, MOST);
     let mut numbers = Vec::with_capacity(steps.len());
-    for batch in (0..nodes.len()).step_by(size) {
-        let edges = batch * choices.len()..(batch + size).min(nodes.len()) * choices.len();
-        let children = from.expand_nodes(stage, &mut steps, &mut merge, edges.clone());
-        for (edge, child) in edges.zip(children) {
-            let (node, choice) = (edge / choices.len(), edge % choices.len());
+    let edges = nodes.len() * choices.len();
+    for batch in (0..edges).step_by(size * choices.len().max(1)) {
+        let batch = batch..(batch + size * choices.len()).min(edges);
+        for child in from.expand_nodes(stage, &mut steps, &mut merge, batch.clone()) {
+            let (node, choice) = (child.node, child.choice);
             let least = nodes.least[node] + choices[choice].cost_milli;
-            let child = child.filter(|spent| {
-                let dimension = steps[0].step(nodes.numbers(node)[0], choice);
-                let dimension = dimension.map_or(0, Step::dimension);
-                !out(spent, dimension, least)
-            });
-            let Some(spent) = child else {
-                merge.edges.push(DEAD);
+            let own = nodes.numbers(node);
+            let dimension = steps[0].step(own[0], choice).map_or(0, Step::dimension);
+            if out(&child.spent, dimension, least) {
                 continue;
-            };
+            }
             numbers.clear();
-            numbers.extend(stage.kinds().enumerate().map(|(kind, (lane, _))| {
-                let number = (!spent.is_ruled_out(lane)).then_some(nodes.numbers(node)[kind]);
-                let step = number.and_then(|from| steps[kind].step(from, choice));
-                step.map_or(NONE, |step| step.to)
-            }));
-            merge.push_edge(spent, &numbers, least);
+            for (kind, (lane, _)) in stage.kinds().enumerate() {
+                let step = steps[kind].step(own[kind], choice);
+                let step = step.filter(|_| !child.spent.is_ruled_out(lane));
+                numbers.push(step.map_or(NONE, |step| step.to));
+            }
+            merge.edges.resize(node * choices.len() + choice, DEAD);
+            merge.push_edge(child.spent, &numbers, least);
         }
+        merge.edges.resize(batch.end, DEAD);
         if cancelled() {
-            merge.interrupt_merge(nodes.len() * choices.len());
+            merge.interrupt_merge(edges);
         }
         told(merge.next.len());
-        if merge.edges.len() == nodes.len() * choices.len() {
+        if merge.edges.len() == edges {
             break;
         }
     }
@@ -260,78 +258,100 @@ const MOST: usize = 1 << 14;
 /// Maximum number of field operations between two checks for cancellation: less than a tenth of a second.
 const BATCH: usize = 1 << 25;
 
+/// What a choice at a node leads to, before equal children are merged.
+struct Child {
+    node: usize,
+    choice: usize,
+    spent: Spent,
+}
+
 impl Expanded<'_> {
-    /// Returns what the children over some edges spend; `None` for those that no variant needs. Takes the steps that they need.
+    /// Returns the children over some edges, without those that no variant needs. Takes the steps that they need.
     fn expand_nodes(
         &self,
         stage: &Stage<'_>,
         steps: &mut [Steps<'_>],
         merge: &mut Merge,
         edges: Range<usize>,
-    ) -> Vec<Option<Spent>> {
+    ) -> Vec<Child> {
         let choices = self.choices.len();
-        let child =
-            |edge: usize| (self.wanted)(edge).then(|| self.nodes.spent[edge / choices].clone());
-        let mut children: Vec<Option<Spent>> = edges.clone().map(child).collect();
-        let mut retain = |lane: usize, keep: &mut dyn FnMut(&mut Spent, &[u32], usize) -> bool| {
-            for (edge, child) in edges.clone().zip(&mut children) {
-                let numbers = self.nodes.numbers(edge / choices);
-                child.take_if(|spent| {
-                    !spent.is_ruled_out(lane) && !keep(spent, numbers, edge % choices)
-                });
-            }
-        };
+        let mut children = Vec::with_capacity(edges.len());
+        children.extend(edges.filter(|&edge| (self.wanted)(edge)).map(|edge| Child {
+            node: edge / choices,
+            choice: edge % choices,
+            spent: self.nodes.spent[edge / choices].clone(),
+        }));
         let mut kind = 0;
         for (number, lane) in stage.lanes.iter().enumerate() {
-            retain(number, &mut |spent, from, choice| {
-                if lane.applies.get(choice) == Some(&false) {
-                    spent.rule_out(number);
+            for child in children
+                .iter_mut()
+                .filter(|c| !c.spent.is_ruled_out(number))
+            {
+                if lane.applies.get(child.choice) == Some(&false) {
+                    child.spent.rule_out(number);
                 } else {
-                    steps[kind].want_step(from[kind], choice);
+                    steps[kind].want_step(self.nodes.numbers(child.node)[kind], child.choice);
                 }
-                true
-            });
+            }
             merge.take_steps(kind, &mut steps[kind]);
             let keeps = lane.harmless.is_some();
-            retain(number, &mut |spent, from, choice| {
-                let Some(step) = steps[kind].step(from[kind], choice) else {
-                    return false;
-                };
-                // A row that starts in the gap is a motion that the contours forbid; directions of the gap that no row has are redundant.
-                let missed = lane.all.closing - step.closed();
-                spent.add_redundant(number, u32::try_from(missed).unwrap_or(u32::MAX));
-                let alive = spent.is_within(stage.limits);
-                if alive && keeps {
-                    steps[kind + 1].want_step(from[kind + 1], choice);
-                }
-                alive
-            });
+            children.retain_mut(
+                |Child {
+                     node,
+                     choice,
+                     spent,
+                 }| {
+                    if spent.is_ruled_out(number) {
+                        return true;
+                    }
+                    let from = self.nodes.numbers(*node);
+                    let Some(step) = steps[kind].step(from[kind], *choice) else {
+                        return false;
+                    };
+                    // A row that starts in the gap is a motion that the contours forbid; directions of the gap that no row has are redundant.
+                    let missed = lane.all.closing - step.closed();
+                    spent.add_redundant(number, u32::try_from(missed).unwrap_or(u32::MAX));
+                    let alive = spent.is_within(stage.limits);
+                    if alive && keeps {
+                        steps[kind + 1].want_step(from[kind + 1], *choice);
+                    }
+                    alive
+                },
+            );
             kind += 1;
             if !keeps {
                 continue;
             }
             merge.take_steps(kind, &mut steps[kind]);
-            retain(number, &mut |spent, from, choice| {
-                let gained = |kind: usize| steps[kind].gained_dimensions(from[kind], choice);
-                if gained(kind).is_some_and(|harmless| Some(harmless) <= gained(kind - 1)) {
-                    return true;
-                }
-                let held = matches!(lane.role, Role::Held(_));
-                if held {
-                    spent.rule_out(number);
-                }
-                held
-            });
+            children.retain_mut(
+                |Child {
+                     node,
+                     choice,
+                     spent,
+                 }| {
+                    if spent.is_ruled_out(number) {
+                        return true;
+                    }
+                    let from = self.nodes.numbers(*node);
+                    let gained = |kind: usize| steps[kind].gained_dimensions(from[kind], *choice);
+                    if gained(kind).is_some_and(|harmless| Some(harmless) <= gained(kind - 1)) {
+                        return true;
+                    }
+                    let held = matches!(lane.role, Role::Held(_));
+                    if held {
+                        spent.rule_out(number);
+                    }
+                    held
+                },
+            );
             kind += 1;
         }
         if let Some(roles) = &stage.ending {
-            for child in &mut children {
-                child.take_if(|spent| {
-                    let holds = spent.holds_all(roles);
-                    spent.settle_counts(roles, stage.limits);
-                    !holds || !spent.state_within(stage.limits)
-                });
-            }
+            children.retain_mut(|Child { spent, .. }| {
+                let holds = spent.holds_all(roles);
+                spent.settle_counts(roles, stage.limits);
+                holds && spent.state_within(stage.limits)
+            });
         }
         children
     }

@@ -86,7 +86,7 @@ fn part_has_all(
     let [of_front, of_back] = [&front, &back].map(|end| end.spaces_at(nodes_at(to)));
     for (front_spaces, back_spaces) in of_front.iter().zip(of_back) {
         let own = back_spaces.iter().map(|&space| &back_rows[space][..]);
-        let bases = Bases::new(halves.field, own, false);
+        let bases = Bases::new(halves.field, own, false, false);
         for &space in front_spaces {
             let found = bases.completing_nodes(&zero_forms[space]);
             let count: u32 = found.iter().map(|word| word.count_ones()).sum();

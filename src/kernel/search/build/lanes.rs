@@ -24,7 +24,9 @@ use crate::search::question::Question;
 use crate::search::question::conditions::InState;
 use crate::search::question::space::{Choice, Face, Variable};
 use crate::search::reduce::lifetimes::Lifetime;
-use crate::search::reduce::self_stress_space::{ClosingRows, SelfStressSpace, is_contained};
+use crate::search::reduce::self_stress_space::{
+    ClosingRows, Offered, SelfStressSpace, is_contained,
+};
 
 /// Returns the diagram of a question for the variables in an order: the smallest there is, or what fits the limits.
 ///
@@ -242,20 +244,20 @@ impl StateRows<'_> {
                 .collect()
         };
         let columns: Vec<_> = space.variables.iter().map(of_variable).collect();
-        let present = |v: usize| {
+        let present = order.iter().filter_map(|&v| {
             let all: Vec<&Vec<Vec<Residue>>> = columns[v].iter().flatten().collect();
             // Only what every choice has can be divided out.
-            let is_in_all = columns[v][0].is_some() && is_contained(field, &all);
-            all.first()
-                .filter(|_| is_in_all)
-                .map_or_else(Vec::new, |first| (*first).clone())
-        };
-        let of_choice = |v: usize, c: usize| columns[v][c].clone().unwrap_or_default();
+            columns[v][0].clone().filter(|_| is_contained(field, &all))
+        });
+        let offered = order.iter().map(|&v| {
+            let choices = columns[v].iter();
+            Offered::from_choices(choices.map(|c| c.clone().unwrap_or_default()))
+        });
         let applies = |&v: &usize| columns[v].iter().map(Option::is_some).collect();
         Lane {
             role: self.role,
             applies: order.iter().map(applies).collect(),
-            space: SelfStressSpace::new(field, &rows, 1, space, order, &present, &of_choice),
+            space: SelfStressSpace::new(field, &rows, 1, present.flatten(), offered),
         }
     }
 

@@ -4,15 +4,16 @@
 //! that is missing, the node is dead. That space is smaller than the motions of all links. Nodes that differ only in motions
 //! that a later original joint allows anyway are one node in it.
 
-use crate::linalg::modp::{Field, Residue};
+use crate::linalg::modp::Field;
+use crate::model::mechanism::JointId;
 use crate::search::diagram::minimize::minimize_diagram;
 use crate::search::diagram::redundancy_so_far::{Limits, Role};
 use crate::search::diagram::stage::{Columns, LaneStage, Stage};
 use crate::search::diagram::{DEAD, Diagram, Layer};
 use crate::search::question::Question;
-use crate::search::question::throughout::{ORDER, Throughout};
+use crate::search::question::throughout::{ColumnSeries, FreedomsAlong, ORDER, Throughout};
 use crate::search::reduce::lifetimes::Lifetime;
-use crate::search::reduce::self_stress_space::{ClosingRows, SelfStressSpace};
+use crate::search::reduce::self_stress_space::{ClosingRows, Offered, SelfStressSpace};
 
 /// Which variants a diagram has.
 #[derive(Debug, Clone, Copy)]
@@ -75,8 +76,12 @@ pub(in crate::search) fn self_stress_space(
         }
         rows.choice_columns(field, variable, c)
     };
-    let present = |v: usize| of_choice(v, 0);
-    SelfStressSpace::new(field, &rows, 1, space, order, &present, &of_choice)
+    let present = order.iter().flat_map(|&v| of_choice(v, 0));
+    let offered = order.iter().map(|&v| {
+        let choices = 0..space.variables[v].choices.len();
+        Offered::from_choices(choices.map(|c| of_choice(v, c)))
+    });
+    SelfStressSpace::new(field, &rows, 1, present, offered)
 }
 
 /// Returns the same space along the motion, modulo a power of t.
@@ -90,14 +95,23 @@ pub(in crate::search) fn space_along_motion(
     let field = question.exact.field();
     let (mechanism, space) = (&question.mechanism, &question.space);
     let rows = ClosingRows::for_free_state(mechanism, space.dim, &question.contours, kept);
-    let of_choice = |v: usize, c: usize| -> Vec<Vec<Residue>> {
-        let freedoms = along.of_choice(v, c).iter();
-        let multiples = freedoms
-            .flat_map(|(joint, series)| rows.series_multiples(field, *joint, &series[..powers]));
-        multiples.collect()
+    let multiples = |(joint, series): &(JointId, ColumnSeries)| {
+        rows.series_multiples(field, *joint, &series[..powers])
     };
-    let present = |v: usize| of_choice(v, 0);
-    SelfStressSpace::new(field, &rows, powers, space, order, &present, &of_choice)
+    let present = order.iter().flat_map(|&v| along.of_choice(v, 0));
+    let present = present.flat_map(multiples);
+    let offered = order.iter().map(|&v| {
+        let FreedomsAlong { columns, choices } = along.of_variable(v);
+        let numbers = |of: &usize| of * powers..(of + 1) * powers;
+        let choices = choices
+            .iter()
+            .map(|own| own.iter().flat_map(numbers).collect());
+        Offered {
+            vectors: columns.iter().flat_map(multiples).collect(),
+            choices: choices.collect(),
+        }
+    });
+    SelfStressSpace::new(field, &rows, powers, present, offered)
 }
 
 /// Returns the stages of a space for the variables in its order, in one lane in which no motion of kept links is forgotten. The diagram is

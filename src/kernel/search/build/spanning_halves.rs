@@ -39,6 +39,8 @@ pub(in crate::search) struct JoinedSides<'a> {
     pub(in crate::search) stages: usize,
     /// Nodes of the front, and those of the back that may complete them. Others do not.
     pub(in crate::search) groups: Vec<[Vec<usize>; 2]>,
+    /// Whether both span all coordinates of contours together, as in a known diagram.
+    pub(in crate::search) spanned: bool,
     /// Bytes that the sets may take.
     pub(in crate::search) bytes: usize,
 }
@@ -161,7 +163,7 @@ impl<'a> Halves<'a> {
         let mut numbered = Numbered::default();
         for [fronts, backs] in &halves.groups {
             let rows = backs.iter().map(|&node| &back[node][..]);
-            let bases = Bases::new(self.field, rows, self.keeps);
+            let bases = Bases::new(self.field, rows, self.keeps, halves.spanned);
             let completing = |n: usize| {
                 let forms = ZeroForms::new(self.field, &rows_of_front(fronts[n]), width);
                 let own = bases.completing_nodes(&forms);

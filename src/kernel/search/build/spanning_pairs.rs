@@ -38,6 +38,8 @@ pub(super) struct Bases {
     nodes: Vec<usize>,
     /// Whether the last number of a vector is a motion of kept links.
     keeps: bool,
+    /// Whether each node spans all coordinates of contours together with each node of the front.
+    spanned: bool,
 }
 
 impl Bases {
@@ -46,6 +48,7 @@ impl Bases {
         field: Field,
         bases: impl IntoIterator<Item = &'b [Vec<Residue>]>,
         keeps: bool,
+        spanned: bool,
     ) -> Bases {
         let mut known: HashMap<&[Residue], usize> = HashMap::new();
         let mut vectors = Vec::new();
@@ -75,6 +78,7 @@ impl Bases {
             lengths: Vec::new(),
             nodes: all.iter().map(|(_, node)| *node).collect(),
             keeps,
+            spanned,
         };
         let mut first = 0;
         for alike in all.chunk_by(|(a, _), (b, _)| a.len() == b.len()) {
@@ -211,9 +215,16 @@ impl Forms {
             return f.dot(numbers, vector);
         }
         let (ended, own) = self.order.split_at(self.each - 1);
-        let ended = ended.iter().zip(&numbers[1..]);
-        let ended = ended.map(|(&at, &number)| (number, vector[at]));
-        f.sum_of_products(std::iter::once((numbers[0], vector[own[form]])).chain(ended))
+        let own = vector[own[form]];
+        if ended.is_empty() {
+            // Before any row it is one number of the vector.
+            return own;
+        }
+        let product = |i: usize| match i {
+            0 => (numbers[0], own),
+            i => (numbers[i], vector[ended[i - 1]]),
+        };
+        f.sum_of_products((0..self.each).map(product))
     }
 }
 
@@ -252,6 +263,10 @@ impl<'a> Walk<'a> {
         let missing = self.levels.len() - 1 - rank;
         if left < missing {
             return;
+        }
+        if left == missing && self.of.spanned {
+            // All rows that are left are new.
+            return self.add_nodes(self.of.items[items.start].first, items.end);
         }
         let mut at = items.start;
         while at < items.end {

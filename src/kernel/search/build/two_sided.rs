@@ -59,19 +59,17 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Returns nodes of the front that are at the same node of a known diagram, with the nodes of the back that it leads to; all nodes if no
+/// Returns nodes of the front that are at the same node of a known diagram, with the nodes of the back that it leads to; `None` if no
 /// diagram is known.
-fn group_nodes(front: &Side<'_>, back: &Side<'_>) -> Vec<[Vec<usize>; 2]> {
-    let (Some(from), Some(to)) = (&front.known, &back.known) else {
-        return vec![[front, back].map(|side| (0..side.nodes.len()).collect())];
-    };
+fn group_nodes(front: &Side<'_>, back: &Side<'_>) -> Option<Vec<[Vec<usize>; 2]>> {
+    let (from, to) = (front.known.as_ref()?, back.known.as_ref()?);
     let mut groups: BTreeMap<usize, [Vec<usize>; 2]> = BTreeMap::new();
     for (end, known) in [from, to].into_iter().enumerate() {
         for (node, at) in known.at.iter().enumerate() {
             nodes_in(at).for_each(|at| groups.entry(at).or_default()[end].push(node));
         }
     }
-    groups.into_values().collect()
+    Some(groups.into_values().collect())
 }
 
 /// Returns the whole diagram of a question whose variants have no redundant constraints except those that all have, part by part. Returns
@@ -107,11 +105,15 @@ pub(in crate::search) fn two_sided(
     let mut layers: Vec<Layer> = Vec::new();
     let mut total = 1;
     for (part, [front, back]) in parts.into_iter().enumerate() {
+        let groups = group_nodes(&front, &back);
         let sides = JoinedSides {
             front: &front.nodes,
             back: &back.nodes,
             stages: back.layers.len(),
-            groups: group_nodes(&front, &back),
+            spanned: groups.is_some(),
+            groups: groups.unwrap_or_else(|| {
+                vec![[&front, &back].map(|side| (0..side.nodes.len()).collect())]
+            }),
             bytes: left / 4,
         };
         let (of_front, sets) = question.join_halves(part, &sides, cancelled)?;

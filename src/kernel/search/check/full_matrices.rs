@@ -71,7 +71,7 @@ impl RowLayout<'_> {
             both.map(|(a, b)| [a, b].concat()).collect()
         };
         let of_choice = |v: usize, c: usize| -> Vec<Vec<Residue>> {
-            along.of_choice(v, c).iter().flat_map(multiples).collect()
+            along.of_choice(v, c).flat_map(multiples).collect()
         };
         let of_variable = |(v, variable): (usize, &Variable)| {
             let choices = 0..variable.choices.len();

@@ -194,8 +194,6 @@ impl Merge {
 
     /// Adds the next edge: to a node with these subspaces, which the cheapest path over the edge reaches at some cost.
     pub(in crate::search) fn push_edge(&mut self, spent: Spent, numbers: &[u32], least: i64) {
-        self.refused |=
-            self.next.reserve_node().is_err() || self.table.try_reserve(1, |&(h, _)| h).is_err();
         let hash = hash_words(spent.hash_words().chain(numbers.iter().map(|&n| n.into())));
         let next = &self.next;
         let same = |&(h, i): &(u64, u32)| {
@@ -207,6 +205,8 @@ impl Merge {
             self.edges.push(node);
             return;
         }
+        self.refused |=
+            self.next.reserve_node().is_err() || self.table.try_reserve(1, |&(h, _)| h).is_err();
         if let Some(why) = self.limit_reached() {
             self.stop = self.stop.combine_with(why);
             self.edges.push(DEAD);

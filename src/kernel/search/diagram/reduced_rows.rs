@@ -35,10 +35,11 @@ impl Rows {
     /// Appends the rows that are zero in the first coordinates, without these: the pivots as bits, and of each row the numbers outside of
     /// pivots' columns. Different spans append different words.
     pub(super) fn pack_beyond(&self, first: usize, out: &mut Vec<Residue>) {
-        let start = out.len();
-        out.resize(start + (self.width - first).div_ceil(64), 0);
         let dropped = self.rank_before(first);
         let pivots = &self.pivots[dropped..];
+        let start = out.len();
+        out.resize(start + (self.width - first).div_ceil(64), 0);
+        out.reserve(pivots.len() * (self.width - first - pivots.len()));
         for p in pivots.iter().map(|p| p - first) {
             out[start + p / 64] |= 1 << (p % 64);
         }
@@ -46,7 +47,10 @@ impl Rows {
             let row = &self.data[(dropped + r) * self.width..][..self.width];
             let mut from = pivot + 1;
             for &to in pivots[r + 1..].iter().chain([&self.width]) {
-                out.extend_from_slice(&row[from..to]);
+                // Most pivots follow one another.
+                if from < to {
+                    out.extend_from_slice(&row[from..to]);
+                }
                 from = to + 1;
             }
         }
@@ -85,12 +89,20 @@ impl Rows {
         }
         let (bits, mut numbers) = packed.split_at(places.len().div_ceil(64));
         let is_pivot = |i: usize| bits[i / 64] >> (i % 64) & 1 == 1;
-        let (pivots, others): (Vec<usize>, Vec<usize>) =
-            (0..places.len()).partition(|&i| is_pivot(i));
+        let (mut pivots, mut others) = (Vec::with_capacity(width), Vec::with_capacity(width));
+        for i in 0..places.len() {
+            let of = if is_pivot(i) {
+                &mut pivots
+            } else {
+                &mut others
+            };
+            of.push(i);
+        }
         self.data.resize(pivots.len() * width, 0);
-        for (row, &pivot) in self.data.chunks_exact_mut(width.max(1)).zip(&pivots) {
+        let rows = self.data.chunks_exact_mut(width.max(1)).zip(&pivots);
+        for (before, (row, &pivot)) in rows.enumerate() {
             row[places[pivot]] = arithmetic.field.one();
-            let others = &others[others.partition_point(|&i| i < pivot)..];
+            let others = &others[pivot - before..];
             let (own, rest) = numbers.split_at(others.len());
             others
                 .iter()
@@ -191,37 +203,43 @@ impl Rows {
         vector: &mut [Residue],
     ) {
         if let Some(pivot) = self.reduce_vector(arithmetic.field, vector) {
-            self.insert_reduced(arithmetic, vector, pivot);
+            self.insert_reduced(arithmetic, vector, pivot, 0);
         }
     }
 
     /// Subtracts from a vector its part along the pivots. Returns its first coordinate that is left; `None` if it was in the span.
     pub(super) fn reduce_vector(&self, f: Field, vector: &mut [Residue]) -> Option<usize> {
-        for (row, &p) in self.data.chunks_exact(self.width.max(1)).zip(&self.pivots) {
-            f.subtract_multiple(&mut vector[p..], &row[p..]);
+        for (r, &p) in self.pivots.iter().enumerate() {
+            if vector[p] != 0 {
+                let row = &self.data[r * self.width..][..self.width];
+                f.subtract_multiple(&mut vector[p..], &row[p..]);
+            }
         }
         vector.iter().position(|&x| x != 0)
     }
 
-    /// Adds a reduced vector that starts at `pivot`.
+    /// Adds a reduced vector that starts at `pivot`. Rows that start before column `from` stay as they are: they are in echelon form, and
+    /// the others in reduced form, which is enough if the first `from` columns are dropped next.
     pub(super) fn insert_reduced(
         &mut self,
         arithmetic: &mut Arithmetic,
         vector: &mut [Residue],
         pivot: usize,
+        from: usize,
     ) {
         let (f, width) = (arithmetic.field, self.width);
         if vector[pivot] != f.one() {
             let scale = arithmetic.cached_inverse(vector[pivot]);
-            vector[pivot..]
-                .iter_mut()
-                .filter(|x| **x != 0)
-                .for_each(|x| *x = f.mul(*x, scale));
+            let others = vector[pivot..].iter_mut().filter(|x| **x != 0);
+            others.for_each(|x| *x = f.mul(*x, scale));
         }
-        let at = self.pivots.partition_point(|&p| p < pivot);
+        let at = self.rank_before(pivot);
         // Rows behind start after the pivot.
-        for row in self.data[..at * width].chunks_exact_mut(width) {
-            f.subtract_multiple(&mut row[pivot..], &vector[pivot..]);
+        for r in self.rank_before(from)..at {
+            if self.data[r * width + pivot] != 0 {
+                let row = &mut self.data[r * width..][..width];
+                f.subtract_multiple(&mut row[pivot..], &vector[pivot..]);
+            }
         }
         self.pivots.insert(at, pivot);
         let (start, end) = (at * width, self.data.len());

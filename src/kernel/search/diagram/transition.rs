@@ -218,13 +218,18 @@ impl Worker {
                     self.grown[g.choice] = rows;
                     place = g.choice;
                 }
-                self.grown[place].insert_reduced(&mut self.arithmetic, &mut self.vector, pivot);
+                self.grown[place].insert_reduced(
+                    &mut self.arithmetic,
+                    &mut self.vector,
+                    pivot,
+                    columns.closing,
+                );
             }
             self.places[g.choice] = place;
         }
     }
 
-    /// Returns a subspace extended by a choice that was wanted.
+    /// Returns a subspace extended by a choice that was wanted. Rows that start in the coordinates that close are not reduced.
     pub(in crate::search) fn rows_of(&self, choice: usize) -> &Rows {
         &self.grown[self.places[choice]]
     }

@@ -26,9 +26,10 @@ use crate::search::question::conditions::Conditions;
 use crate::search::question::kept::Kept;
 use crate::search::question::space::{Choice, Space, choice_name, coupled_twist};
 use crate::search::reduce::combinations::Combinations;
-use crate::search::reduce::self_stress_space::ClosingRows;
+use crate::search::reduce::self_stress_space::{ClosingRows, number_in};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use thiserror::Error;
 
@@ -95,8 +96,16 @@ pub(in crate::search) type ColumnSeries = Vec<Vec<Residue>>;
 /// The columns of every choice along the motion.
 #[derive(Debug)]
 pub(in crate::search) struct Throughout {
-    /// `[variable][choice]`: the joint and the series of each freedom.
-    columns: Vec<Vec<Vec<(JointId, ColumnSeries)>>>,
+    variables: Vec<FreedomsAlong>,
+}
+
+/// The freedoms that the choices of a variable have along the motion.
+#[derive(Debug)]
+pub(in crate::search) struct FreedomsAlong {
+    /// The joint and the series of each freedom. Most of them belong to several choices.
+    pub(in crate::search) columns: Vec<(JointId, ColumnSeries)>,
+    /// The numbers of the freedoms of each choice.
+    pub(in crate::search) choices: Vec<Vec<usize>>,
 }
 
 /// What [`Throughout::new`] says: columns, or why there are none.
@@ -125,12 +134,13 @@ impl Throughout {
             Ok(motion) => motion,
             Err(why) => return Ok(Err(why)),
         };
-        let mut columns = Vec::with_capacity(space.variables.len());
+        let mut variables = Vec::with_capacity(space.variables.len());
         for variable in &space.variables {
-            let mut of_choices = vec![Vec::new(); variable.choices.len()];
+            let mut columns = Vec::new();
+            let mut choices = vec![Vec::new(); variable.choices.len()];
             for &joint in &variable.joints {
                 let mut present = Vec::new();
-                for (out, choice) in of_choices.iter_mut().zip(&variable.choices) {
+                for (numbers, choice) in choices.iter_mut().zip(&variable.choices) {
                     let own = motion.choice_columns(exact, mechanism, joint, choice)?;
                     // The present joint comes first.
                     if present.is_empty() {
@@ -143,12 +153,13 @@ impl Throughout {
                             option: choice_name(mechanism, joint, choice),
                         }));
                     };
-                    out.extend(own.into_iter().map(|c| (joint, c)));
+                    let own = own.into_iter().map(|c| (joint, c));
+                    numbers.extend(own.map(|column| number_in(&mut columns, column)));
                 }
             }
-            columns.push(of_choices);
+            variables.push(FreedomsAlong { columns, choices });
         }
-        let out = Throughout { columns };
+        let out = Throughout { variables };
         let rows = ClosingRows::for_free_state(mechanism, space.dim, contours, Some(kept));
         Ok(if out.is_regular(exact.field(), &rows) {
             Ok(out)
@@ -162,15 +173,21 @@ impl Throughout {
         &self,
         variable: usize,
         choice: usize,
-    ) -> &[(JointId, ColumnSeries)] {
-        &self.columns[variable][choice]
+    ) -> impl Iterator<Item = &(JointId, ColumnSeries)> {
+        let FreedomsAlong { columns, choices } = &self.variables[variable];
+        choices[choice].iter().map(|&number| &columns[number])
+    }
+
+    /// Returns the freedoms of all choices of a variable.
+    pub(in crate::search) fn of_variable(&self, variable: usize) -> &FreedomsAlong {
+        &self.variables[variable]
     }
 
     /// Returns whether the joints as built have the same rank and the same kept motion in poses next to the drawn one.
     fn is_regular(&self, f: Field, rows: &ClosingRows<'_>) -> bool {
         let ranks = |order: usize| -> [usize; 2] {
-            let present = self.columns.iter().filter_map(|choices| choices.first());
-            let all = present.flatten().flat_map(|(joint, series)| {
+            let present = (0..self.variables.len()).flat_map(|v| self.of_choice(v, 0));
+            let all = present.flat_map(|(joint, series)| {
                 rows.series_multiples(f, *joint, series.get(..order).unwrap_or(series))
             });
             let pivots = Echelon::from_vectors(f, all).pivots();
@@ -209,17 +226,20 @@ fn has_all(f: Field, columns: &[ColumnSeries], others: &[ColumnSeries]) -> bool 
 struct Motion {
     field: Field,
     space: MotionSpace<Residue>,
-    links: Vec<DisplacementSeries>,
     /// The joints of the free state.
     over: BTreeMap<JointId, Passed>,
 }
 
 /// An original joint along the motion.
 struct Passed {
-    displacement: DisplacementSeries,
-    /// Its freedoms in the order in which they are passed, each with its twist and its coordinate.
-    freedoms: Vec<(Freedom, Twist<Residue>, Series)>,
+    /// Its freedoms in the order in which they are passed, each with its twist.
+    freedoms: Vec<(Freedom, Twist<Residue>)>,
+    /// The place before its first freedom, between it and the next one, and so on.
+    places: Vec<Place>,
 }
+
+/// The displacements along the motion of what is between two freedoms in series: from the joint's first link, and from the frame.
+type Place = [DisplacementSeries; 2];
 
 /// A freedom of a joint in series: its name, none for one of an unloading joint, and its twist.
 type InSeries = (Option<Freedom>, Twist<Residue>);
@@ -263,25 +283,19 @@ impl Motion {
             let joint = &mechanism.joints[j];
             let freedoms = joint.joint_type.freedoms();
             let frame = FrameValues::new(exact, &joint.frame)?;
-            let mut displacement = DisplacementSeries::identity(field, POWERS);
-            let own = frame.motions_in_series(exact, &space, freedoms);
-            let own = own.into_iter().map(|(freedom, twist)| {
-                let q = series[&(j, freedom)].clone();
-                displacement = displacement.then(&DisplacementSeries::exp(field, &twist, &q));
-                (freedom, twist, q)
-            });
-            let freedoms = own.collect();
-            over.insert(
-                j,
-                Passed {
-                    displacement,
-                    freedoms,
-                },
-            );
+            let freedoms = frame.motions_in_series(exact, &space, freedoms);
+            let mut moved = DisplacementSeries::identity(field, POWERS);
+            let mut places = vec![[moved.clone(), moved.clone()]];
+            for (freedom, twist) in &freedoms {
+                let q = &series[&(j, *freedom)];
+                moved = moved.then(&DisplacementSeries::exp(field, twist, q));
+                places.push([moved.clone(), moved.clone()]);
+            }
+            over.insert(j, Passed { freedoms, places });
         }
         let mut links = vec![DisplacementSeries::identity(field, POWERS); mechanism.links.len()];
         for step in spanning_tree(mechanism, StateId::FREE) {
-            let passed = &over[&step.joint].displacement;
+            let passed = over[&step.joint].displacement();
             let from = &links[step.from.index()];
             links[step.link.index()] = if step.forward {
                 from.then(passed)
@@ -289,12 +303,13 @@ impl Motion {
                 from.then(&passed.inverse())
             };
         }
-        Ok(Ok(Motion {
-            field,
-            space,
-            links,
-            over,
-        }))
+        for (&j, passed) in &mut over {
+            let link = &links[mechanism.joints[j].links[0].index()];
+            for [moved, from_frame] in &mut passed.places {
+                *from_frame = link.then(moved);
+            }
+        }
+        Ok(Ok(Motion { field, space, over }))
     }
 
     /// Returns the columns of a choice at a joint, one for each freedom. `None` if it cannot follow the original joint.
@@ -318,38 +333,47 @@ impl Motion {
         let Some(present) = self.over.get(&joint) else {
             return Ok(None);
         };
-        let known = present.known_coordinates(&passed);
-        let Some(q) = known.or_else(|| self.follow_coordinates(&passed, &present.displacement))
-        else {
+        let known = present.known_places(&passed);
+        let Some(places) = known.or_else(|| self.follow_places(&passed, present)) else {
             return Ok(None);
         };
         let row = rate_row(exact, &self.space, mechanism, joint, &option.frame)?;
-        let mut before = DisplacementSeries::identity(self.field, POWERS);
-        let mut from_frame = self.links[of.links[0].index()].clone();
         let mut out = Vec::with_capacity(passed.len());
-        for ((freedom, twist), q) in passed.iter().zip(&q) {
-            let within = before.carry_twist(twist);
-            let carried = from_frame.carry_twist(twist);
+        for ((freedom, twist), place) in passed.iter().zip(&places) {
+            let [within, from_frame] = place.as_ref();
+            let rates = row.as_ref().map(|row| (row, within.carry_twist(twist)));
             let mut column = ColumnSeries::with_capacity(POWERS);
-            for (k, (here, there)) in within.iter().zip(&carried).enumerate() {
+            for (k, there) in from_frame.carry_twist(twist).iter().enumerate() {
                 let components = self.space.along_axes(exact, there);
                 let coupled_by = freedom.filter(|_| k == 0);
                 let mut entry =
                     coupled_twist(exact, mechanism, joint, option, coupled_by, components)?;
-                if let Some(row) = &row {
-                    let here = self.space.along_axes(exact, here);
+                if let Some((row, within)) = &rates {
+                    let here = self.space.along_axes(exact, &within[k]);
                     entry.push(freedom.map_or(0, |_| rate_of_twist(exact, row, &here)));
                 }
                 column.push(entry);
             }
             out.push(column);
-            if q.iter().any(|&x| x != 0) {
-                let moved = DisplacementSeries::exp(self.field, twist, q);
-                before = before.then(&moved);
-                from_frame = from_frame.then(&moved);
-            }
         }
         Ok(Some(out))
+    }
+
+    /// Returns the place before each of some freedoms in series that move as an original joint does. `None` if they cannot.
+    fn follow_places<'p>(
+        &self,
+        passed: &[InSeries],
+        present: &'p Passed,
+    ) -> Option<Vec<Cow<'p, Place>>> {
+        let q = self.follow_coordinates(passed, present.displacement())?;
+        let mut place = present.places[0].clone();
+        let before = passed.iter().zip(&q).map(|((_, twist), q)| {
+            let here = place.clone();
+            let moved = DisplacementSeries::exp(self.field, twist, q);
+            place = place.each_ref().map(|d| d.then(&moved));
+            Cow::Owned(here)
+        });
+        Some(before.collect())
     }
 
     /// Returns the coordinates of freedoms in series that move as the original joint does, by order of t. `None` if there
@@ -382,15 +406,22 @@ impl Motion {
 }
 
 impl Passed {
-    /// Returns the coordinates of freedoms in series: those of the original joint, and 0 for further ones. `None` if the original freedoms
-    /// are not among these, in the same order.
-    fn known_coordinates(&self, passed: &[InSeries]) -> Option<Vec<Series>> {
-        let mut own = self.freedoms.iter().peekable();
-        let coordinate = |(freedom, twist): &InSeries| {
-            let same = own.next_if(|(f, t, _)| Some(*f) == *freedom && t == twist);
-            same.map_or_else(|| vec![0; POWERS], |(_, _, q)| q.clone())
+    fn displacement(&self) -> &DisplacementSeries {
+        let [moved, _] = &self.places[self.freedoms.len()];
+        moved
+    }
+
+    /// Returns the place before each of some freedoms in series, of which only the original ones move. `None` if the original freedoms are
+    /// not among these, in the same order.
+    fn known_places(&self, passed: &[InSeries]) -> Option<Vec<Cow<'_, Place>>> {
+        let mut own = 0;
+        let place = |(freedom, twist): &InSeries| {
+            let here = Cow::Borrowed(&self.places[own]);
+            let next = self.freedoms.get(own);
+            own += usize::from(next.is_some_and(|(f, t)| Some(*f) == *freedom && t == twist));
+            here
         };
-        let q = passed.iter().map(coordinate).collect();
-        own.next().is_none().then_some(q)
+        let places = passed.iter().map(place).collect();
+        (own == self.freedoms.len()).then_some(places)
     }
 }

@@ -16,10 +16,9 @@ use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::displacement_series::shifted_multiples;
 use crate::search::question::kept::Kept;
-use crate::search::question::space::{Space, Variable};
+use crate::search::question::space::Variable;
 use crate::search::reduce::combinations::Combinations;
 use crate::search::reduce::lifetimes::{AddedBy, Lifetime, shorten_lifetimes};
-use hashbrown::HashMap;
 use std::borrow::{Borrow, Cow};
 use std::ops::Range;
 
@@ -40,6 +39,38 @@ pub(in crate::search) struct SelfStressSpace {
     pub(in crate::search) lasting: u32,
     /// Whether a kept link moves at present: such motions are divided out.
     pub(in crate::search) moves_kept: bool,
+}
+
+/// The vectors that the choices of a variable add to a mechanism, in all rows.
+pub(in crate::search) struct Offered {
+    /// The vectors. Most of them belong to several choices.
+    pub(in crate::search) vectors: Vec<Added>,
+    /// The numbers of the vectors of each choice.
+    pub(in crate::search) choices: Vec<Vec<usize>>,
+}
+
+impl Offered {
+    /// Numbers the vectors of each choice.
+    pub(in crate::search) fn from_choices(choices: impl Iterator<Item = Vec<Added>>) -> Offered {
+        let mut vectors = Vec::new();
+        let choices = choices.map(|all| {
+            let numbers = all.into_iter().map(|v| number_in(&mut vectors, v));
+            numbers.collect()
+        });
+        Offered {
+            choices: choices.collect(),
+            vectors,
+        }
+    }
+}
+
+/// Returns the number of something in a list, to which it is added if it is new.
+pub(in crate::search) fn number_in<T: PartialEq>(list: &mut Vec<T>, new: T) -> usize {
+    let known = list.iter().position(|known| *known == new);
+    known.unwrap_or_else(|| {
+        list.push(new);
+        list.len() - 1
+    })
 }
 
 /// The rows to which the motion of each joint contributes: its contours, its couplings, and the links it moves.
@@ -279,9 +310,9 @@ impl Reached {
 }
 
 impl SelfStressSpace {
-    /// Returns the space of the variables of `space` in an order, where the motions of the links that `rows` has matter. `of_choice` gives
-    /// the vectors of a choice of a variable, which have each row so many `times`: once in the drawn pose, and once for each power of t
-    /// along a motion. `present` gives the vectors of a variable that all its choices have.
+    /// Returns the space of what some variables in their order offer, where the motions of the links that `rows` has matter. All choices
+    /// have the vectors in `present`. The vectors have each row so many `times`: once in the drawn pose, and once for each power of t along
+    /// a motion.
     ///
     /// # Complexity
     /// O(n·m²) field operations for n vectors of all choices with m rows.
@@ -289,33 +320,23 @@ impl SelfStressSpace {
         field: Field,
         rows: &ClosingRows<'_>,
         times: usize,
-        space: &Space,
-        order: &[usize],
-        present: &dyn Fn(usize) -> Vec<Vec<Residue>>,
-        of_choice: &dyn Fn(usize, usize) -> Vec<Vec<Residue>>,
+        present: impl Iterator<Item = Added>,
+        offered: impl ExactSizeIterator<Item = Offered>,
     ) -> SelfStressSpace {
-        let present = order.iter().flat_map(|&v| present(v));
         let closing = times * rows.count_closing();
         let width = closing + times * rows.count_kept();
         let beside = BesidePresent::new(field, present, width);
         let moves_kept = beside.present.pivots().iter().any(|&p| p >= closing);
         // Motions of the kept links, and what the choices add.
         let links = beside.left_units(field, closing..width);
-        // A freedom of several choices is one vector.
         let mut vectors: Vec<AddedBy> = Vec::new();
-        let mut choices: Vec<Vec<Vec<usize>>> = Vec::with_capacity(order.len());
-        for (t, &v) in order.iter().enumerate() {
-            let mut known: HashMap<Vec<Residue>, usize> = HashMap::new();
-            let mut number = |column: Vec<Residue>| {
-                *known.entry(column).or_insert_with_key(|column| {
-                    vectors.push((t, beside.left_of(column.clone())));
-                    vectors.len() - 1
-                })
-            };
-            let of_variable = 0..space.variables[v].choices.len();
-            let of_variable =
-                of_variable.map(|c| of_choice(v, c).into_iter().map(&mut number).collect());
-            choices.push(of_variable.collect());
+        let mut choices: Vec<Vec<Vec<usize>>> = Vec::with_capacity(offered.len());
+        for (t, of) in offered.enumerate() {
+            let first = vectors.len();
+            let left = of.vectors.into_iter().map(|v| (t, beside.left_of(v)));
+            vectors.extend(left);
+            let numbers = |all: &Vec<usize>| all.iter().map(|i| first + i).collect();
+            choices.push(of.choices.iter().map(numbers).collect());
         }
         let self_stresses = beside.open.len() - links.rank();
         let contours = Reached::last_reached(&vectors, 0, links.clone());
