@@ -173,16 +173,18 @@ struct Variants {
 /// Maximum number of nearby places that are tried to reach general position.
 const BESIDE: u32 = 20;
 
-/// Returns a layout in general position with its variants: a nearby one, or the given one. `None` if none of these is general. On whole
+/// Returns a layout in general position with its figures and variants: a nearby one, or the given one. `None` if none of these is general. On whole
 /// millimetres two layouts of eight links in five are special, and nearly all of ten links; the first nearby one nearly always is general.
 fn in_general_position(
     structure: &Structure,
     found: &AsFile,
     spec: &Spec,
     general: &General,
-) -> Result<Option<(AsFile, Variants)>, RowError> {
-    let moved = (0..BESIDE).filter_map(|n| nearby_layout(structure, &found.layout, spec.seed, n));
-    for layout in moved.chain([found.layout.clone()]) {
+) -> Result<Option<(AsFile, LayoutFigures, Variants)>, RowError> {
+    let given = &found.layout;
+    let moved = (0..BESIDE).filter_map(|n| nearby_layout(structure, given, spec.seed, n));
+    let own = std::iter::once_with(|| Some((given.clone(), layout_figures(structure, given)?)));
+    for (layout, figures) in moved.chain(own.flatten()) {
         let as_file = AsFile::new(structure, layout, spec)?;
         if let Some(search) = general.certify_layout(as_file.built.clone(), spec)? {
             let variants = Variants {
@@ -195,7 +197,7 @@ fn in_general_position(
                     spec.ideas,
                 ),
             };
-            return Ok(Some((as_file, variants)));
+            return Ok(Some((as_file, figures, variants)));
         }
     }
     Ok(None)
@@ -219,17 +221,19 @@ fn lay_structure(
     spec: &Spec,
     general: Option<&General>,
 ) -> Result<Result<Laid, NoLayout>, RowError> {
-    let mut as_file = AsFile::new(structure, layout, spec)?;
-    let mut variants = None;
-    if let Some(general) = general
-        && let Some(found) = in_general_position(structure, &as_file, spec, general)?
-    {
-        (as_file, variants) = (found.0, Some(found.1));
-    }
-    let built = &as_file.built;
-    let Some(figures) = layout_figures(structure, &as_file.layout) else {
-        return Ok(Err(NoLayout::NotRegular));
+    let found = AsFile::new(structure, layout, spec)?;
+    let moved = match general {
+        Some(general) => in_general_position(structure, &found, spec, general)?,
+        None => None,
     };
+    let (as_file, figures, variants) = match moved {
+        Some((as_file, figures, variants)) => (as_file, figures, Some(variants)),
+        None => match layout_figures(structure, &found.layout) {
+            Some(figures) => (found, figures, None),
+            None => return Ok(Err(NoLayout::NotRegular)),
+        },
+    };
+    let built = &as_file.built;
     let Decision {
         verdict, finite, ..
     } = decide_state(built, StateId::FREE).map_err(AnalysisError::from)?;

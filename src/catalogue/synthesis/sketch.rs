@@ -30,6 +30,8 @@ pub struct Sketch<'a> {
     pub rules: Rules,
     /// The points of its links.
     pub bones: Bones,
+    /// The joints that may be placed.
+    pub(super) movable: Vec<usize>,
     /// The driven joint.
     pub input: usize,
     /// The link against which the driver moves, and the driver.
@@ -104,6 +106,7 @@ impl<'a> Sketch<'a> {
             bones,
             input: rules.joints.iter().position(at_input).unwrap_or(0),
             at_rest: vec![LinkPose::AT_REST; chain.links()],
+            movable: rules.movable_joints().collect(),
             structure,
             rules,
             drive,
