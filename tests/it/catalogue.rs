@@ -24,7 +24,9 @@ mod three_jaws;
 mod workload;
 
 use ozols::analyze;
-use ozols::catalog::row::{Laid, StructureRow};
+use ozols::catalog::RowError;
+use ozols::catalog::general::General;
+use ozols::catalog::row::{Laid, StructureRow, row_of_pair};
 use ozols::chains::Symmetry;
 use ozols::chains::roles::Subject;
 use ozols::file::schema::{Coordinate, DriveWord};
@@ -102,6 +104,12 @@ fn form_of(input: Input, symmetry: Symmetry, parallel: bool) -> (Input, Form) {
         ..of
     };
     (input, form)
+}
+
+/// The row of a structure that is built alone.
+fn structure_row(structure: &Structure, spec: &Spec) -> Result<StructureRow, RowError> {
+    let general = General::search_general(structure, spec)?;
+    row_of_pair(structure, spec, general.as_ref())
 }
 
 fn plain_spec(ideas: usize) -> Spec {

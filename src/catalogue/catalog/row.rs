@@ -84,22 +84,10 @@ pub struct IdeaRow {
     pub scores: Option<Scores>,
 }
 
-/// Returns the row of one structure. [`build_rows`](crate::catalog::build::build_rows) shares the searches that rows have in common.
+/// Returns the row of a structure, given the search of its chain and input by [`General::search_general`] if there is one.
 ///
 /// # Errors
 /// Returns an error if the program fails. A structure without a layout is a row, too.
-///
-/// # Complexity
-/// A search for places, one of the variants, and what [`General::search_general`] takes.
-pub fn structure_row(structure: &Structure, spec: &Spec) -> Result<StructureRow, RowError> {
-    let general = General::search_general(structure, spec)?;
-    row_of_pair(structure, spec, general.as_ref())
-}
-
-/// Returns the row of a structure, given the search of its chain and input if there is one.
-///
-/// # Errors
-/// Returns an error in the same cases as [`structure_row`].
 ///
 /// # Complexity
 /// A search for places, and a diagram of the variants for each place tried.
@@ -173,16 +161,17 @@ struct Variants {
 /// Maximum number of nearby places that are tried to reach general position.
 const BESIDE: u32 = 20;
 
-/// Returns a layout in general position with its variants: a nearby one, or the given one. `None` if none of these is general. On whole
+/// Returns a layout in general position with its figures and variants: a nearby one, or the given one. `None` if none of these is general. On whole
 /// millimetres two layouts of eight links in five are special, and nearly all of ten links; the first nearby one nearly always is general.
 fn in_general_position(
     structure: &Structure,
-    found: &AsFile,
+    given: &Layout,
     spec: &Spec,
     general: &General,
-) -> Result<Option<(AsFile, Variants)>, RowError> {
-    let moved = (0..BESIDE).filter_map(|n| nearby_layout(structure, &found.layout, spec.seed, n));
-    for layout in moved.chain([found.layout.clone()]) {
+) -> Result<Option<(AsFile, LayoutFigures, Variants)>, RowError> {
+    let moved = (0..BESIDE).filter_map(|n| nearby_layout(structure, given, spec.seed, n));
+    let own = std::iter::once_with(|| Some((given.clone(), layout_figures(structure, given)?)));
+    for (layout, figures) in moved.chain(own.flatten()) {
         let as_file = AsFile::new(structure, layout, spec)?;
         if let Some(search) = general.certify_layout(as_file.built.clone(), spec)? {
             let variants = Variants {
@@ -195,7 +184,7 @@ fn in_general_position(
                     spec.ideas,
                 ),
             };
-            return Ok(Some((as_file, variants)));
+            return Ok(Some((as_file, figures, variants)));
         }
     }
     Ok(None)
@@ -219,17 +208,18 @@ fn lay_structure(
     spec: &Spec,
     general: Option<&General>,
 ) -> Result<Result<Laid, NoLayout>, RowError> {
-    let mut as_file = AsFile::new(structure, layout, spec)?;
-    let mut variants = None;
-    if let Some(general) = general
-        && let Some(found) = in_general_position(structure, &as_file, spec, general)?
-    {
-        (as_file, variants) = (found.0, Some(found.1));
-    }
-    let built = &as_file.built;
-    let Some(figures) = layout_figures(structure, &as_file.layout) else {
-        return Ok(Err(NoLayout::NotRegular));
+    let moved = match general {
+        Some(general) => in_general_position(structure, &layout, spec, general)?,
+        None => None,
     };
+    let (as_file, figures, variants) = match moved {
+        Some((as_file, figures, variants)) => (as_file, figures, Some(variants)),
+        None => match layout_figures(structure, &layout) {
+            Some(figures) => (AsFile::new(structure, layout, spec)?, figures, None),
+            None => return Ok(Err(NoLayout::NotRegular)),
+        },
+    };
+    let built = &as_file.built;
     let Decision {
         verdict, finite, ..
     } = decide_state(built, StateId::FREE).map_err(AnalysisError::from)?;

@@ -80,8 +80,16 @@ pub struct LayoutFigures {
 #[must_use]
 pub fn layout_figures(structure: &Structure, layout: &Layout) -> Option<LayoutFigures> {
     let sketch = Sketch::new(structure, layout.rules.clone(), layout.limits);
-    let two = of_stroke(&mut Judge::new(&sketch), &layout.at)?;
-    Some(match structure.sides {
+    figures_at(&mut Judge::new(&sketch), &layout.at)
+}
+
+/// Returns the figures of the places of a sketch, as [`layout_figures`].
+pub(in crate::synthesis) fn figures_at(
+    judge: &mut Judge<'_>,
+    at: &Places,
+) -> Option<LayoutFigures> {
+    let two = of_stroke(judge, at)?;
+    Some(match judge.motion.sketch.structure.sides {
         None => two,
         Some(_) => LayoutFigures {
             jaws: vec![two.jaws[0]; SIDES],

@@ -32,6 +32,14 @@ impl Places {
             teeth: vec![Teeth::Gears([1, 1]); all],
         }
     }
+
+    /// Takes the places of another layout of the same joints, without new allocations.
+    pub(in crate::synthesis) fn copy_from(&mut self, other: &Places) {
+        self.points.clone_from(&other.points);
+        self.along.clone_from(&other.along);
+        self.pinned.clone_from(&other.pinned);
+        self.teeth.clone_from(&other.teeth);
+    }
 }
 
 /// Transmission ratio of teeth.

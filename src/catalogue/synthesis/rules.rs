@@ -190,7 +190,7 @@ impl Rules {
     }
 
     /// Returns the joints that may be placed. The image of a joint follows it.
-    pub(crate) fn movable_joints(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(in crate::synthesis) fn movable_joints(&self) -> impl Iterator<Item = usize> + '_ {
         let fixed = |i: usize| {
             let own = matches!(self.rules[i], Rule::Own(_));
             let central = own && self.symmetry != Symmetry::Mirror;
@@ -277,6 +277,9 @@ impl Rules {
                     at.pinned[i] = times.fold(at.pinned[of], |l, _| self.swap[l]);
                 }
             }
+        }
+        if self.meshes.iter().all(Option::is_none) {
+            return;
         }
         // Teeth follow from the guides of racks.
         for (of, i) in self.image_pairs() {

@@ -12,7 +12,7 @@ use crate::synthesis::equations::velocities::Contours;
 use crate::synthesis::place::Point;
 use crate::synthesis::places::Places;
 use crate::synthesis::rules::{Rule, Rules};
-use crate::synthesis::sketch::bones::{BonePlan, Bones};
+use crate::synthesis::sketch::bones::Bones;
 use crate::synthesis::sketch::layout_quality::{LayoutMotion, Looks};
 use crate::synthesis::sketch::seen_sides::SeenSides;
 use crate::synthesis::stroke::closure::Closure;
@@ -30,6 +30,8 @@ pub struct Sketch<'a> {
     pub rules: Rules,
     /// The points of its links.
     pub bones: Bones,
+    /// The joints that may be placed.
+    pub(super) movable: Vec<usize>,
     /// The driven joint.
     pub input: usize,
     /// The link against which the driver moves, and the driver.
@@ -72,10 +74,12 @@ impl<'a> Sketch<'a> {
             .image_pairs()
             .filter(|(of, _)| rules.rules[*of] == Rule::OnLine);
         let shared = shared.map(|(of, image)| 1u32 << of | 1 << image);
-        let plan = BonePlan {
+        let shared: Vec<u32> = shared.chain((central > 0).then_some(central)).collect();
+        let cylinder = structure.structure.input_slides() && drive[0] != roles.frame;
+        let mut bones = Bones {
             frame: roles.frame,
             driver: drive[1],
-            jaws: &roles.jaws,
+            jaws: roles.jaws.clone(),
             joints: rules.joints.iter().zip(&rules.blocks).map(point).collect(),
             follows: rules.rules.iter().map(|r| !free(r)).collect(),
             tips: (structure.tip_places(&limits.task).iter().map(|t| t.real())).collect(),
@@ -83,12 +87,10 @@ impl<'a> Sketch<'a> {
             hinged: roles.jaws.iter().map(hinged).collect(),
             round: room_round_part(roles.jaws.len(), structure.form.symmetry),
             wished: limits.task.wished_distances(),
-            together: shared.chain((central > 0).then_some(central)).collect(),
-            cylinder: (structure.structure.input_slides() && drive[0] != roles.frame)
-                .then_some(drive),
-        };
+            ..Bones::default()
+        }
+        .joined(chain.links(), &shared, cylinder.then_some(drive), pinned);
         let at_input = |j: &Joint| j.links == roles.input;
-        let mut bones = Bones::new(chain.links(), plan, pinned);
         if structure.sides.is_some() {
             bones.sides = SIDES;
         }
@@ -104,6 +106,7 @@ impl<'a> Sketch<'a> {
             bones,
             input: rules.joints.iter().position(at_input).unwrap_or(0),
             at_rest: vec![LinkPose::AT_REST; chain.links()],
+            movable: rules.movable_joints().collect(),
             structure,
             rules,
             drive,

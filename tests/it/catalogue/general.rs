@@ -1,6 +1,6 @@
 //! Layouts that are called generic are in general position: none has fewer determinate variants than its chain and input have.
 
-use super::{Drawn, each_structure, form_of, layout, out_of_plane, plain_spec};
+use super::{Drawn, each_structure, form_of, layout, out_of_plane, plain_spec, structure_row};
 use crate::common::*;
 use ozols::chains::Symmetry;
 

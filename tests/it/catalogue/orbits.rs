@@ -2,7 +2,7 @@
 
 use super::command::{path_in, query_lines};
 use super::three_jaws::third;
-use super::{each_structure_of, form_of, plain_spec};
+use super::{each_structure_of, form_of, plain_spec, structure_row};
 use crate::common::*;
 use ozols::chains::Symmetry;
 use ozols::search::answer::search_counts::orbit_counts;

@@ -2,7 +2,7 @@
 
 use super::command::{free_state, path_in, query_lines};
 use super::stroke::read_layout;
-use super::{Drawn, each_structure_of, form_of, free_motions, layout, plain_spec};
+use super::{Drawn, each_structure_of, form_of, free_motions, layout, plain_spec, structure_row};
 use crate::common::*;
 use ozols::chains::Symmetry;
 use ozols::chains::roles::Subject;

@@ -3,7 +3,6 @@
 pub(crate) use chacha20::ChaCha8Rng;
 pub(crate) use chacha20::rand_core::{Rng, SeedableRng};
 pub(crate) use ozols::accuracy::change::turned_and_rounded;
-pub(crate) use ozols::catalog::row::structure_row;
 pub(crate) use ozols::catalog::spec::Spec;
 pub(crate) use ozols::chains::Input;
 pub(crate) use ozols::chains::chain::Chain;

@@ -301,12 +301,7 @@ impl<'s, 'a> Annealing<'s, 'a> {
     /// Returns true if the search may end with these places. They are the cheapest so far, their stroke costs little, and they fulfil the
     /// task at all its poses.
     fn is_good(&self, judge: &mut Judge<'a>, look: Look) -> bool {
-        if look != Look::Stroke || self.now >= self.sketch.good_cost() {
-            return false;
-        }
-        let stroke = judge.fine_figures(&self.at);
-        let swings = self.sketch.bones.all_swing();
-        stroke.is_some_and(|f| self.sketch.limits.find_shortfall(&f, swings).is_none())
+        look == Look::Stroke && self.now < self.sketch.good_cost() && judge.does_task(&self.at)
     }
 
     /// Returns true if the lowest cost is still too high after so many moves.
@@ -340,7 +335,7 @@ impl<'s, 'a> Annealing<'s, 'a> {
         if self.step == 0 {
             // The stroke phases begin with the best places of the drawing phases.
             if strokes || matches!(phase.look, Look::Force(_)) {
-                self.at.clone_from(&self.best.1);
+                self.at.copy_from(&self.best.1);
             }
             let cost = self.place_cost(judge, phase.look, f64::INFINITY);
             self.now = cost.unwrap_or(f64::INFINITY);
@@ -368,7 +363,7 @@ impl<'s, 'a> Annealing<'s, 'a> {
     /// Tries other places.
     fn try_step(&mut self, judge: &mut Judge<'a>, look: Look, warmth: f64) {
         let heat = 2.0 * warmth * warmth;
-        self.before.clone_from(&self.at);
+        self.before.copy_from(&self.at);
         if let Look::Force(_) = look {
             // Limits meet in corners: a step from one corner to another moves several joints, near or far.
             for _ in 0..=random_below(3, &mut self.random) {
@@ -387,10 +382,10 @@ impl<'s, 'a> Annealing<'s, 'a> {
                 self.now = then;
                 if then < self.best.0 {
                     self.best.0 = then;
-                    self.best.1.clone_from(&self.at);
+                    self.best.1.copy_from(&self.at);
                 }
             }
-            None => self.at.clone_from(&self.before),
+            None => self.at.copy_from(&self.before),
         }
     }
 }

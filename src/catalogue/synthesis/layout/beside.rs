@@ -1,7 +1,7 @@
 //! Places near those of a layout: whole millimetres are coarse, so that pins are often in special places by chance.
 
 use crate::chains::Input;
-use crate::synthesis::figures::layout_figures;
+use crate::synthesis::figures::{LayoutFigures, figures_at, layout_figures};
 use crate::synthesis::layout::Layout;
 use crate::synthesis::place::{FINE, Place};
 use crate::synthesis::random_of;
@@ -10,7 +10,7 @@ use crate::synthesis::stroke::judge::Judge;
 use crate::synthesis::structure::Structure;
 use chacha20::rand_core::Rng;
 
-/// Returns the layout with its pins moved by less than half a millimetre each, to thousandths, and by less the greater the number is. The
+/// Returns the layout and its figures with its pins moved by less than half a millimetre each, to thousandths, and by less the greater the number is. The
 /// result is the same for the same seed and number. Pins keep the rules of the structure: sliding pins stay on their line, and images stay
 /// images.
 ///
@@ -24,7 +24,7 @@ pub(crate) fn nearby_layout(
     layout: &Layout,
     seed: u64,
     number: u32,
-) -> Option<Layout> {
+) -> Option<(Layout, LayoutFigures)> {
     let mut random = random_of(&format!("{} {seed} beside {number}", structure.name()));
     // Layouts at the very edge of a limit lose the task by large moves. From -499 to 499 at first, from -15 to 15 at last.
     let reach = (FINE / 2 - 1) >> (number / 4).min(5);
@@ -33,7 +33,7 @@ pub(crate) fn nearby_layout(
     let sketch = Sketch::new(structure, layout.rules.clone(), layout.limits);
     let slides = structure.drive_input() == Input::Slide;
     let mut at = layout.at.clone();
-    let movable = sketch.rules.movable_joints();
+    let movable = sketch.movable.iter().copied();
     for pin in movable.filter(|&pin| pin != sketch.input || !slides) {
         let place = layout.rules.exact_place(&layout.at.points, pin);
         let fine = [off(), off()];
@@ -43,13 +43,14 @@ pub(crate) fn nearby_layout(
     for pin in 0..layout.rules.joints.len() {
         at.points[pin] = layout.rules.exact_place(&at.points, pin).real();
     }
-    let looks = Judge::new(&sketch).drawn_figures(&at)?;
+    let mut judge = Judge::new(&sketch);
+    let looks = judge.drawn_figures(&at)?;
     let moved = Layout {
         at,
         looks,
         ..layout.clone()
     };
-    let now = layout_figures(structure, &moved)?;
+    let now = figures_at(&mut judge, &moved.at)?;
     let (does, passes) = (now.shortfall.is_none(), now.stacking.is_known());
     // Faults that the original layout has are accepted.
     let no_less = || {
@@ -58,5 +59,5 @@ pub(crate) fn nearby_layout(
         })
     };
     let kept = moved.looks.keep_limits(&moved.limits, passes) && (does && passes || no_less());
-    kept.then_some(moved)
+    kept.then_some((moved, now))
 }

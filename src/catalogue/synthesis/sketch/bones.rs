@@ -9,7 +9,7 @@ use chacha20::ChaCha8Rng;
 use itertools::Itertools;
 
 /// The points of a gripper's links. Points are numbered: joints in their order, then tips.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Bones {
     /// The fixed link.
     pub frame: usize,
@@ -56,26 +56,6 @@ pub struct Bones {
     pub sides: usize,
 }
 
-/// Input for [`Bones`]: the roles of the links, and rules for the places of the joints.
-#[derive(Debug, Clone)]
-pub(in crate::synthesis) struct BonePlan<'a> {
-    pub(in crate::synthesis) frame: usize,
-    pub(in crate::synthesis) driver: usize,
-    pub(in crate::synthesis) jaws: &'a [usize],
-    /// The links of each joint that has a point on both.
-    pub(in crate::synthesis) joints: Vec<Option<[usize; 2]>>,
-    pub(in crate::synthesis) follows: Vec<bool>,
-    pub(in crate::synthesis) tips: Vec<Point>,
-    pub(in crate::synthesis) turns: bool,
-    pub(in crate::synthesis) hinged: Vec<bool>,
-    pub(in crate::synthesis) round: Option<f64>,
-    pub(in crate::synthesis) wished: [f64; 2],
-    /// Sets of joints that are on one axis, as bits.
-    pub(in crate::synthesis) together: Vec<u32>,
-    /// The links of a drive that slides between two moving links.
-    pub(in crate::synthesis) cylinder: Option<[usize; 2]>,
-}
-
 /// Returns the number of joints on a shortest path from a link to every link; infinite if there is no path.
 fn joints_away(
     links: usize,
@@ -91,107 +71,96 @@ fn joints_away(
     away
 }
 
-/// Returns the side of each joint's jaw. This is the jaw that is nearer on paths without frame and driver.
-fn joint_halves(links: usize, plan: &BonePlan<'_>) -> Vec<f64> {
-    let ([a, b], None) = (plan.jaws, plan.round) else {
-        return vec![0.0; plan.joints.len()];
-    };
-    let between: Vec<[usize; 2]> = plan.joints.iter().flatten().copied().collect();
-    let still = |link: usize| link == plan.frame || link == plan.driver && plan.cylinder.is_none();
-    let moving = between
-        .into_iter()
-        .filter(|ends| !ends.iter().any(|l| still(*l)));
-    let far = |jaw: usize| joints_away(links, moving.clone(), jaw);
-    let (to_a, to_b) = (far(*a), far(*b));
-    let half = |ends: &Option<[usize; 2]>| {
-        let Some(ends) = ends else { return 0.0 };
-        let near = |away: &[f64]| away[ends[0]].min(away[ends[1]]);
-        match near(&to_a).total_cmp(&near(&to_b)) {
-            std::cmp::Ordering::Less => plan.tips[0][1].signum(),
-            std::cmp::Ordering::Greater => plan.tips[1][1].signum(),
-            std::cmp::Ordering::Equal => 0.0,
-        }
-    };
-    let halves = plan.joints.iter().map(half).enumerate();
-    // A joint on one axis with its image is on no side.
-    let shared = |i: usize| plan.together.iter().any(|set| set >> i & 1 == 1);
-    halves
-        .map(|(i, half)| if shared(i) { 0.0 } else { half })
-        .collect()
-}
-
 impl Bones {
-    /// Creates the points of `links` links. Links for which `pinned` returns true can be rods.
-    pub(in crate::synthesis) fn new(
+    /// Completes the roles of the links and the rules of the joints with the points of `links` links. `together` are the sets of joints that
+    /// are on one axis, as bits. `cylinder` are the links of a drive that slides between two moving links. Links for which `pinned` returns
+    /// true can be rods.
+    pub(in crate::synthesis) fn joined(
+        mut self,
         links: usize,
-        plan: BonePlan<'_>,
+        together: &[u32],
+        cylinder: Option<[usize; 2]>,
         pinned: impl Fn(usize) -> bool,
     ) -> Bones {
         let mut of_link = vec![Vec::new(); links];
-        for (i, ends) in plan.joints.iter().enumerate() {
+        for (i, ends) in self.joints.iter().enumerate() {
             for &link in ends.iter().flatten() {
                 of_link[link].push(i);
             }
         }
-        for (n, &jaw) in plan.jaws.iter().enumerate() {
-            of_link[jaw].push(plan.joints.len() + n);
+        for (n, &jaw) in self.jaws.iter().enumerate() {
+            of_link[jaw].push(self.joints.len() + n);
         }
         let rods = of_link.iter().enumerate().filter_map(|(l, points)| {
             let [a, b] = points[..] else { return None };
-            let pulls = l != plan.frame && l != plan.driver && pinned(l);
+            let pulls = l != self.frame && l != self.driver && pinned(l);
             pulls.then_some((l, [a, b]))
         });
-        let centre = middle_of(&plan.tips);
+        self.rods = rods.collect();
+        let centre = middle_of(&self.tips);
+        self.inward = self.tips.iter().map(|t| unit(sub(centre, *t))).collect();
         let alone = |i: usize| {
-            let of = plan.together.iter().find(|set| *set >> i & 1 == 1);
+            let of = together.iter().find(|set| *set >> i & 1 == 1);
             of.copied().unwrap_or(1 << i)
         };
-        let points = plan.joints.len() + plan.tips.len();
+        let points = self.joints.len() + self.tips.len();
+        self.together = (0..points).map(alone).collect();
         let bits = |points: &Vec<usize>| points.iter().fold(0, |bits, p| bits | 1 << p);
-        let members: Vec<u32> = of_link.iter().map(bits).collect();
-        let many = |link: &usize| *link != plan.frame && of_link[*link].len() > 3;
-        let hulled = (0..links).filter(many).fold(0, |all, l| all | members[l]);
-        let joints = plan.joints.iter().enumerate();
-        let touching = joints.fold(0, |bits, (i, j)| bits | u32::from(j.is_none()) << i);
-        let cylinder = plan.cylinder.and_then(|links| {
+        self.members = of_link.iter().map(bits).collect();
+        let many = |link: &usize| *link != self.frame && of_link[*link].len() > 3;
+        self.hulled = (0..links)
+            .filter(many)
+            .fold(0, |all, l| all | self.members[l]);
+        let joints = self.joints.iter().enumerate();
+        self.touching = joints.fold(0, |bits, (i, j)| bits | u32::from(j.is_none()) << i);
+        self.cylinder = cylinder.and_then(|links| {
             let end = |link: usize| {
-                let ends = |i: usize| plan.joints.get(i).map(|ends| ends.map(order_links));
+                let ends = |i: usize| self.joints.get(i).map(|ends| ends.map(order_links));
                 let other = |&&i: &&usize| ends(i).is_some_and(|e| e != Some(order_links(links)));
                 let one = of_link[link].iter().filter(other).exactly_one().ok();
                 one.map(|&joint| (link, joint))
             };
             Some([end(links[0])?, end(links[1])?])
         });
-        let together: Vec<u32> = (0..points).map(alone).collect();
-        let moving = of_link.iter().enumerate().filter(|(l, _)| *l != plan.frame);
+        let moving = of_link.iter().enumerate().filter(|(l, _)| *l != self.frame);
         let spans = moving.flat_map(|(_, points)| {
             let ends = points.iter().enumerate();
             ends.flat_map(|(i, &a)| points[..i].iter().map(move |&b| [a, b]))
         });
-        let spans = spans.filter(|&[a, b]| together[a] >> b & 1 == 0).collect();
-        Bones {
-            spans,
-            halves: joint_halves(links, &plan),
-            cylinder,
-            rods: rods.collect(),
-            hulled,
-            members,
-            inward: plan.tips.iter().map(|t| unit(sub(centre, *t))).collect(),
-            of_link,
-            touching,
-            together,
-            joints: plan.joints,
-            follows: plan.follows,
-            tips: plan.tips,
-            frame: plan.frame,
-            driver: plan.driver,
-            jaws: plan.jaws.to_vec(),
-            turns: plan.turns,
-            hinged: plan.hinged,
-            round: plan.round,
-            wished: plan.wished,
-            sides: plan.jaws.len(),
-        }
+        let spans = spans.filter(|&[a, b]| self.together[a] >> b & 1 == 0);
+        self.spans = spans.collect();
+        self.of_link = of_link;
+        self.sides = self.jaws.len();
+        self.halves = self.joint_halves(cylinder.is_some());
+        self
+    }
+
+    /// Returns the side of each joint's jaw. This is the jaw that is nearer on paths without frame and driver; the driver of a cylinder
+    /// counts.
+    fn joint_halves(&self, cylinder: bool) -> Vec<f64> {
+        let ([a, b], None) = (&self.jaws[..], self.round) else {
+            return vec![0.0; self.joints.len()];
+        };
+        let between: Vec<[usize; 2]> = self.joints.iter().flatten().copied().collect();
+        let still = |link: usize| link == self.frame || link == self.driver && !cylinder;
+        let moving = between
+            .into_iter()
+            .filter(|ends| !ends.iter().any(|l| still(*l)));
+        let far = |jaw: usize| joints_away(self.of_link.len(), moving.clone(), jaw);
+        let (to_a, to_b) = (far(*a), far(*b));
+        let half = |(i, ends): (usize, &Option<[usize; 2]>)| {
+            // A joint on one axis with its image is on no side.
+            let Some(ends) = ends.filter(|_| self.together[i] == 1 << i) else {
+                return 0.0;
+            };
+            let near = |away: &[f64]| away[ends[0]].min(away[ends[1]]);
+            match near(&to_a).total_cmp(&near(&to_b)) {
+                std::cmp::Ordering::Less => self.tips[0][1].signum(),
+                std::cmp::Ordering::Greater => self.tips[1][1].signum(),
+                std::cmp::Ordering::Equal => 0.0,
+            }
+        };
+        self.joints.iter().enumerate().map(half).collect()
     }
 
     /// Returns the unit vector away from the part at each jaw, divided by the number of pairs of jaws. The displacements of the tips along

@@ -59,7 +59,7 @@ impl Bones {
         besides: impl FnOnce() -> Option<f64>,
     ) -> Option<f64> {
         let cheap = |sum: f64| (sum <= most).then_some(sum);
-        let sum = cheap(self.places(at) + self.length_cost(at).1)?;
+        let sum = cheap(self.places(at) + self.length_cost(at))?;
         let sum = cheap(sum + self.spacing_cost(at))?;
         let sum = cheap(sum + besides()?)?;
         cheap(sum + seen.crossing_cost(self, at).1)
@@ -77,7 +77,7 @@ impl Bones {
         let mut seen = SeenSides::default();
         Some(Looks {
             crossings: seen.crossing_cost(self, at).0,
-            ratio: self.length_cost(at).0,
+            ratio: self.link_ratio(at),
             penalty: self.place_penalty(at, f64::INFINITY, &mut seen, || Some(motion.penalty))?,
             closing: motion.closing,
             tips: motion.tips,
@@ -96,7 +96,8 @@ impl Bones {
                     penalty += 4.0 * beyond_limit(near - square.sqrt(), near);
                 }
                 // Pins level with each other, or right above each other, have an axis in common. This special place costs redesigns.
-                if i < self.joints.len() && !self.follows[i] && !self.follows[j] {
+                let aligned = apart[0].abs() < ALIGNED || apart[1].abs() < ALIGNED;
+                if aligned && i < self.joints.len() && !self.follows[i] && !self.follows[j] {
                     penalty += apart
                         .iter()
                         .map(|x| 0.5 * beyond_limit(ALIGNED - x.abs(), ALIGNED))
@@ -112,19 +113,31 @@ impl Bones {
         self.together[i] >> j & 1 == 1
     }
 
-    /// Returns the ratio of the longest to the shortest link, and the cost of long and short links.
-    fn length_cost(&self, at: &[Point]) -> (f64, f64) {
-        let (mut longest, mut shortest, mut penalty) = (0.0_f64, f64::INFINITY, 0.0);
-        for &[a, b] in &self.spans {
+    /// Returns the squared lengths of all links.
+    fn square_lengths(&self, at: &[Point]) -> impl Iterator<Item = f64> {
+        self.spans.iter().map(|&[a, b]| {
             let apart = sub(at[a], at[b]);
-            let square = dot(apart, apart);
-            (longest, shortest) = (longest.max(square), shortest.min(square));
+            dot(apart, apart)
+        })
+    }
+
+    /// Returns the ratio of the longest to the shortest link.
+    fn link_ratio(&self, at: &[Point]) -> f64 {
+        let longest = self.square_lengths(at).fold(0.0, f64::max);
+        let shortest = self.square_lengths(at).fold(f64::INFINITY, f64::min);
+        longest.sqrt() / shortest.sqrt()
+    }
+
+    /// Returns the cost of long and short links.
+    fn length_cost(&self, at: &[Point]) -> f64 {
+        let mut penalty = 0.0;
+        for square in self.square_lengths(at) {
             if !(SHORT * SHORT..LONG * LONG).contains(&square) {
                 let d = square.sqrt();
                 penalty += beyond_limit(d - LONG, 25.0) + beyond_limit(SHORT - d, 10.0);
             }
         }
-        (longest.sqrt() / shortest.sqrt(), penalty)
+        penalty
     }
 
     /// Writes the sides of all moving links to `out`, link by link.
@@ -197,7 +210,7 @@ impl Bones {
         limits: &Limits,
         seen: &mut SeenSides,
     ) -> f64 {
-        let (ratio, _) = self.length_cost(at);
+        let ratio = self.link_ratio(at);
         let (count, crossings) = seen.crossing_cost(self, at);
         let over = count.saturating_sub(limits.crossings);
         #[allow(clippy::cast_precision_loss, reason = "a few")]

@@ -185,12 +185,8 @@ impl Sketch<'_> {
         warmth: f64,
         random: &mut ChaCha8Rng,
     ) {
-        let movable = self.rules.movable_joints().count();
-        let Some(joint) = self
-            .rules
-            .movable_joints()
-            .nth(random_below(movable.max(1), random))
-        else {
+        let number = random_below(self.movable.len().max(1), random);
+        let Some(&joint) = self.movable.get(number) else {
             return;
         };
         let pair = self.rules.joints[joint].pair;

@@ -20,7 +20,7 @@ use crate::synthesis::task::Limits;
 const COARSE: Grid = Grid {
     steps: 5.0,
     finest: 0.01,
-    settled: 1e-3,
+    settled: 1e-2,
     forces_everywhere: false,
 };
 
@@ -92,6 +92,16 @@ impl StrokeFigures {
     pub fn force_ratio(&self) -> f64 {
         self.rates[1] / self.rates[0].max(1e-12)
     }
+}
+
+/// When the evaluation of a stroke ends without a result. Further poses improve no figure.
+#[derive(Debug, Clone, Copy)]
+enum StopAt {
+    Never,
+    /// Once it costs more.
+    Cost(f64),
+    /// Once a requirement of the task is not met.
+    Shortfall,
 }
 
 /// Progress of a stroke in both directions: distance between the tips, travel of the drive, and why the stroke ends.
@@ -193,7 +203,8 @@ impl<'a> Judge<'a> {
         whole: bool,
         most: f64,
     ) -> Option<StrokeFigures> {
-        self.follow_from_drawn(at, if whole { COARSE } else { DRAWN }, most)
+        let grid = if whole { COARSE } else { DRAWN };
+        self.follow_from_drawn(at, grid, StopAt::Cost(most))
     }
 
     /// Returns the figures of places at the few poses of the search. `None` if the drawn pose is singular, or if the cost is more than
@@ -202,7 +213,7 @@ impl<'a> Judge<'a> {
     /// # Complexity
     /// Some corrections of O(n³) for n links, for each of some seven poses.
     pub fn coarse_figures(&mut self, at: &Places, most: f64) -> Option<StrokeFigures> {
-        self.follow_grid(at, COARSE, most)
+        self.follow_grid(at, COARSE, StopAt::Cost(most))
     }
 
     /// Returns the figures of places at the poses for reports; `None` if the drawn pose is singular.
@@ -210,23 +221,36 @@ impl<'a> Judge<'a> {
     /// # Complexity
     /// As [`Judge::coarse_figures`], for some fifty poses.
     pub fn fine_figures(&mut self, at: &Places) -> Option<StrokeFigures> {
-        self.follow_grid(at, FINE, f64::INFINITY)
+        self.follow_grid(at, FINE, StopAt::Never)
     }
 
-    /// Returns the figures of places at the poses of a grid; `None` if the drawn pose is singular, or if the cost is more than `most`.
+    /// Returns true if places do the task at the poses for reports.
+    ///
+    /// # Complexity
+    /// As [`Judge::fine_figures`], or less if they do not.
+    pub(in crate::synthesis) fn does_task(&mut self, at: &Places) -> bool {
+        self.follow_grid(at, FINE, StopAt::Shortfall).is_some()
+    }
+
+    /// Returns the figures of places at the poses of a grid; `None` if the drawn pose is singular, or if the evaluation stops.
     ///
     /// # Complexity
     /// As [`Judge::coarse_figures`], in proportion to the number of poses.
-    fn follow_grid(&mut self, at: &Places, grid: Grid, most: f64) -> Option<StrokeFigures> {
+    fn follow_grid(&mut self, at: &Places, grid: Grid, stop: StopAt) -> Option<StrokeFigures> {
         self.motion.walk.settled = grid.settled;
         if !self.stand_drawn(at) {
             return None;
         }
-        self.follow_from_drawn(at, grid, most)
+        self.follow_from_drawn(at, grid, stop)
     }
 
-    /// Returns the figures of places at whose drawn pose the walk stands; `None` if the cost is more than `most`.
-    fn follow_from_drawn(&mut self, at: &Places, grid: Grid, most: f64) -> Option<StrokeFigures> {
+    /// Returns the figures of places at whose drawn pose the walk stands; `None` if the evaluation stops.
+    fn follow_from_drawn(
+        &mut self,
+        at: &Places,
+        grid: Grid,
+        stop: StopAt,
+    ) -> Option<StrokeFigures> {
         let task = self.limits().task;
         let drawn = 2.0 * f64::from(task.half_opening());
         let finest = grid.finest * task.opening_span();
@@ -242,7 +266,7 @@ impl<'a> Judge<'a> {
             self.gathered.reach = sketch.bones.tip_reach(&at.points);
         }
         self.look(at);
-        if self.is_dearer(&way, most) {
+        if self.is_stopped(&way, stop) {
             return None;
         }
         self.weigh_forces(at);
@@ -257,7 +281,7 @@ impl<'a> Judge<'a> {
                 .max(1.0);
             let mut i = 0.0;
             while i < count && way.ends[n].is_none() {
-                if self.is_dearer(&way, most) {
+                if self.is_stopped(&way, stop) {
                     return None;
                 }
                 i += 1.0;
@@ -271,12 +295,21 @@ impl<'a> Judge<'a> {
             way.reached[n] = drawn + walk.wider;
             way.drive[n] = walk.x.last().copied().unwrap_or(0.0);
         }
-        (!self.is_dearer(&way, most)).then(|| self.figures(&way))
+        (!self.is_stopped(&way, stop)).then(|| self.figures(&way))
     }
 
-    /// Returns true if the figures so far cost more than `most`; further poses improve no figure.
-    fn is_dearer(&self, way: &ReachedStroke, most: f64) -> bool {
-        most < f64::INFINITY && self.limits().stroke_cost(&self.figures(way)) > most
+    /// Returns true if the figures so far end the evaluation.
+    fn is_stopped(&self, way: &ReachedStroke, stop: StopAt) -> bool {
+        match stop {
+            StopAt::Never | StopAt::Cost(f64::INFINITY) => false,
+            StopAt::Cost(most) => self.limits().stroke_cost(&self.figures(way)) > most,
+            StopAt::Shortfall => {
+                let swings = self.motion.sketch.bones.all_swing();
+                self.limits()
+                    .find_shortfall(&self.figures(way), swings)
+                    .is_some()
+            }
+        }
     }
 
     fn figures(&self, way: &ReachedStroke) -> StrokeFigures {

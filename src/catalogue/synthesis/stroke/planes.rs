@@ -271,7 +271,6 @@ impl Stack<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthesis::sketch::bones::BonePlan;
     use itertools::Itertools;
     use proptest::prelude::*;
 
@@ -279,10 +278,10 @@ mod tests {
     const JOINTS: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 3], [3, 0], [2, 4], [4, 3]];
 
     fn bones() -> Bones {
-        let plan = BonePlan {
+        let bones = Bones {
             frame: 0,
             driver: 1,
-            jaws: &[2, 3],
+            jaws: vec![2, 3],
             joints: JOINTS.map(Some).to_vec(),
             follows: vec![false; 6],
             tips: vec![[0.0, 1.0], [0.0, -1.0]],
@@ -290,10 +289,9 @@ mod tests {
             hinged: vec![false, true],
             round: None,
             wished: [14.0, 25.0],
-            cylinder: None,
-            together: Vec::new(),
+            ..Bones::default()
         };
-        Bones::new(5, plan, |_| true)
+        bones.joined(5, &[], None, |_| true)
     }
 
     /// Finds the fewest layers by trying all, including those of the frame. A front plate counts only if some pin needs it.

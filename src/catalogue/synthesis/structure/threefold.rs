@@ -13,7 +13,7 @@ use crate::chains::structure::PairStructure;
 use crate::chains::{PairKind, Symmetry};
 use crate::synthesis::place::{Pivot, Point, third};
 use crate::synthesis::rules::Rules;
-use crate::synthesis::sketch::bones::{BonePlan, Bones};
+use crate::synthesis::sketch::bones::Bones;
 use crate::synthesis::structure::{Sides, Structure};
 use petgraph::unionfind::UnionFind;
 
@@ -185,10 +185,10 @@ impl Around {
                 .iter()
                 .any(|r| structure.side_link(r.0, 0) == Some(l))
         };
-        let plan = BonePlan {
+        let bones = Bones {
             frame: structure.side_link(two.frame, 0).unwrap_or(0),
             driver: structure.side_link(two.driver, 0).unwrap_or(0),
-            jaws: &jaws,
+            jaws,
             follows: vec![true; joints.len()],
             joints,
             tips: (0..SIDES).map(turned).collect(),
@@ -196,11 +196,10 @@ impl Around {
             hinged: vec![two.hinged[0]; SIDES],
             round: two.round,
             wished: two.wished,
-            cylinder: None,
-            together: Vec::new(),
+            ..Bones::default()
         };
         Around {
-            bones: Bones::new(structure.link_count(), plan, pushes),
+            bones: bones.joined(structure.link_count(), &[], None, pushes),
             made,
             copies,
         }

@@ -52,16 +52,22 @@ const keeping = (c, anew) => button(kept === c ? 'Let it go' : 'Keep to compare'
   anew();
 });
 
-/** The force of a jaw over the stroke, from open to closed: work in is work out, so that it is the drive's travel by the opening's. */
-function forceChart(c, frames) {
-  const widths = frames.map((f) => opening(c.drawing, f.tips) / c.drawing.scale), jaws = c.jaw_c_motion ? 3 : 2;
-  const step = ((c.drawing.slides ? 1 : 1000) * c.travel) / STEPS;
-  const forces = widths.slice(1).map((w, i) => (2 * step) / jaws / Math.abs(w - widths[i])), most = Math.max(...forces);
-  const at = (f, i) => [8 + (204 * i) / (forces.length - 1), 52 - (44 * f) / most];
-  const words = `Jaw force from open to closed: ${short(c.force_min)} to ${short(c.force_max)} ${unit(c)}`;
+/** A figure over the opening, from open to closed, on a scale from 0. */
+function strokeChart(words, widths, values, most) {
+  const [first, last] = [widths[0], widths.at(-1)];
+  const at = (x, i) => [8 + (204 * (widths[i] - first)) / (last - first), 52 - (44 * x) / most];
   const chart = svgElement('svg', { class: 'gripper chart', viewBox: '0 0 220 60', role: 'img' });
-  chart.append(svgElement('title', {}, words), svgElement('path', { class: 'guide', d: path([[8, 52], [212, 52]]) }), svgElement('path', { class: 'drive', d: path(forces.map(at)) }));
+  chart.append(svgElement('title', {}, words), svgElement('path', { class: 'guide', d: path([[8, 52], [212, 52]]) }), svgElement('path', { class: 'drive', d: path(values.map(at)) }));
   return element('figure', {}, chart, element('figcaption', { class: 'help' }, words));
+}
+
+/** The force of a jaw and the transmission angle over the stroke. */
+function strokeCharts(c, frames) {
+  const all = frames.flatMap((f) => figuresAt(c.drawing, motions(c).length, f) || []), widths = all.map((f) => f.width);
+  const forces = all.map((f) => f.force), words = (what) => `${what} from open to closed: `;
+  return element('div', { class: 'two' },
+    strokeChart(`${words('Jaw force')}${short(c.force_min)} to ${short(c.force_max)} ${unit(c)}`, widths, forces, Math.max(...forces)),
+    strokeChart(`${words('Transmission angle')}${short(c.transmission)}° at least, 90° at the top`, widths, all.map((f) => f.angle), 90));
 }
 
 /** The drawing of what is chosen, with how far it is open. */
@@ -82,7 +88,7 @@ function sight(c) {
       frame = Number(range.value) === drawn ? undefined : frames[range.value];
       draw();
     });
-    figure.append(element('label', { class: 'stroke' }, 'open', range, 'closed'), forceChart(c, frames));
+    figure.append(element('label', { class: 'stroke' }, 'open', range, 'closed'), strokeCharts(c, frames));
   }
   return { figure, show: (chosen) => { idea = chosen; draw(); } };
 }
