@@ -8,6 +8,7 @@ mod proof;
 mod reasons;
 
 use ozols::model::ranking::Ranking;
+use ozols::score::joint_types::JointTypes;
 use ozols::score::outcome::ranking::{RankedPool, Ranker, compare_ranked};
 
 fn loaded() -> Mechanism {
@@ -243,4 +244,56 @@ fn limits_filter() {
             .iter()
             .all(|x| x.scores.force.utilisation <= middle)
     );
+}
+
+#[test]
+fn the_catalogue_of_joint_types_is_whole() {
+    let types = JointTypes::built_in();
+    for t in JointType::NAMED {
+        let found = types
+            .get(t.name())
+            .unwrap_or_else(|| panic!("{}", t.name()));
+        assert!(found.capacity_force > 0.0 && found.clearance >= 0.0);
+        assert!(found.capacity_moment.is_none_or(|m| m > 0.0));
+    }
+    assert!(types.get("custom").is_some());
+}
+
+/// A pool of a thousand makes another variant the first of gripper-10-loaded than one of twenty thousand does: what is missing to
+/// a proof is said.
+#[test]
+fn a_pool_says_how_far_it_is_from_proven() {
+    let m = loaded();
+    let asked = |pool| {
+        default_with(|r: &mut Request| {
+            (r.pool, r.list) = (Some(pool), ozols::score::request::List::Top(1))
+        })
+    };
+    let first = |request: &Request| {
+        let found = ozols::search(&m, request).unwrap();
+        let ranking = found.ranking.unwrap();
+        let best = ranking.list[0].clone();
+        (best, ranking)
+    };
+    let (narrow, _) = first(&asked(1000));
+    let (best, ranking) = first(&asked(20_000));
+    // Places among variants of one cost are the diagram's; which places they are does not matter.
+    assert!(
+        narrow.by_cost <= 1000 && best.by_cost > 1000,
+        "{}",
+        best.by_cost
+    );
+    assert!(best.total < narrow.total);
+    // What is missing: nothing elsewhere is below the least sum, and nothing from the stated cost on can come before.
+    assert!(!ranking.proven);
+    let missing = ranking.missing.unwrap();
+    assert_eq!(missing.last, best.total);
+    assert!(missing.least < missing.last, "{missing:?}");
+    let cheaper: u64 = missing.cheaper.as_ref().unwrap().try_into().unwrap();
+    assert!(cheaper > 20_000 && cheaper < 6_352_317_325, "{cheaper}");
+    // Where cost weighs enough the list is proven, and nothing is missing.
+    let mut heavy = asked(20_000);
+    heavy.rank = vec![(Term::PeakMoment, 10.0), (Term::Cost, 50.0)];
+    let (_, ranking) = first(&heavy);
+    assert!(ranking.proven && ranking.missing.is_none() && ranking.scored < 20_000);
 }
