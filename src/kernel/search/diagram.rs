@@ -258,7 +258,7 @@ const MOST: usize = 1 << 14;
 /// Maximum number of field operations between two checks for cancellation: less than a tenth of a second.
 const BATCH: usize = 1 << 25;
 
-/// What a choice at a node leads to, before equal children are merged.
+/// The child of a node by a choice, before equal children are merged.
 struct Child {
     node: usize,
     choice: usize,

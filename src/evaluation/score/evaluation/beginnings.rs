@@ -303,27 +303,16 @@ impl Begun<'_> {
 
     /// Computes the unknowns in some load cases.
     fn solve_cases(&mut self, cases: std::ops::Range<usize>) {
-        let mut first = cases.start;
-        while first + 4 <= cases.end {
-            self.solve_together::<4>(first);
-            first += 4;
-        }
-        (first..cases.end).for_each(|case| self.solve_together::<1>(case));
-    }
-
-    /// Computes the unknowns in `N` load cases, which do not wait for each other.
-    fn solve_together<const N: usize>(&mut self, first: usize) {
         let (width, unknowns, sides) = (self.of.width, self.of.unknowns, self.of.sides);
         for at in (0..unknowns).rev() {
             let row = &self.rows[at * width..(at + 1) * width];
-            let mut x: [f64; N] = std::array::from_fn(|i| row[unknowns + first + i]);
-            for &later in &self.pivots[at + 1..] {
-                let known = &self.solution[later * sides + first..][..N];
-                for (x, known) in x.iter_mut().zip(known) {
-                    *x -= row[later] * known;
+            for case in cases.clone() {
+                let mut x = row[unknowns + case];
+                for &later in &self.pivots[at + 1..] {
+                    x -= row[later] * self.solution[later * sides + case];
                 }
+                self.solution[self.pivots[at] * sides + case] = x;
             }
-            self.solution[self.pivots[at] * sides + first..][..N].copy_from_slice(&x);
         }
     }
 

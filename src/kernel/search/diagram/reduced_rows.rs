@@ -218,7 +218,7 @@ impl Rows {
         vector.iter().position(|&x| x != 0)
     }
 
-    /// Adds a reduced vector that starts at `pivot`. Rows that start before column `from` stay as they are: they are in echelon form, and
+    /// Adds a reduced vector that starts at `pivot`. Rows that start before column `from` are not changed: they are in echelon form, and
     /// the others in reduced form, which is enough if the first `from` columns are dropped next.
     pub(super) fn insert_reduced(
         &mut self,
