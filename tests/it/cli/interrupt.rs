@@ -208,29 +208,3 @@ fn what_is_cut_short_takes_nobodys_place() {
         assert_eq!(folder.names().len(), 2);
     }
 }
-
-/// A run that is killed cannot clean up after itself.
-#[test]
-fn what_killed_runs_left_is_cleaned_by_the_next() {
-    let folder = &Folder::new();
-    let list = "search gripper-10 --all --check none --format csv -o list.csv";
-    let [mut killed, mut going] = [(); 2].map(|()| start(folder, list));
-    let temporary = || temporary(folder).len();
-    while temporary() < 2 {
-        sleep(Duration::from_millis(5));
-    }
-    sleep(Duration::from_millis(100));
-    killed.kill().unwrap();
-    killed.wait().unwrap();
-    assert_eq!(temporary(), 2);
-    folder.put(".tmpother", "somebody else's");
-    let check = start(folder, "analyze four-bar -o x.txt");
-    assert!(check.wait_with_output().unwrap().status.success());
-    // That of the one that goes on is left, and so is what is none of ours.
-    assert_eq!(temporary(), 2);
-    assert!(folder.path(".tmpother").exists() && folder.path("x.txt").exists());
-    going.kill().unwrap();
-    going.wait().unwrap();
-    folder.succeed("analyze four-bar -o x.txt");
-    assert_eq!(temporary(), 1);
-}

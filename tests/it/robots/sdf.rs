@@ -115,5 +115,6 @@ fn sdf_models() {
         <model name='arm'><link name='l'/><joint name='j' type='ball'><parent>world</parent><child>l</child></joint></model></world></sdf>";
     let t = toml_of("m.sdf", world);
     has(&t, "links = [\"world\", \"arm::l\"]");
-    has(&t, "with floor::l");
+    // The link of the floor is part of the world.
+    lacks(&t, "floor::l");
 }
