@@ -53,10 +53,8 @@ impl FoundPlaces {
 
 /// Maximum number of starts of a search for places, for each lay.
 pub(in crate::synthesis) const STARTS: u32 = 12;
-/// Number of best starts that go on if none becomes good, and the same for structures that have only hinges. More go on if none of these
-/// keeps the limits of the drawing.
+/// Number of best starts that go on if none becomes good. More go on if none of these keeps the limits of the drawing.
 const GO_ON: usize = 6;
-const GO_ON_HINGES: usize = 4;
 
 /// Returns the best places of some starts of a structure of this name; `None` if all end in singular poses.
 ///
@@ -73,8 +71,6 @@ pub(in crate::synthesis) fn best_of_starts<'a>(
         Aim::Balanced => &LAGGING,
         Aim::Force => &NEVER,
     };
-    let hinges = sketch.structure.form.hinges;
-    let go_on = if hinges { GO_ON_HINGES } else { GO_ON };
     let mut raced = Vec::new();
     for start in first..first + STARTS {
         let random = random_for(name, seed, start);
@@ -91,13 +87,13 @@ pub(in crate::synthesis) fn best_of_starts<'a>(
     raced.sort_by(|(a, _), (b, _)| a.compare_places(b));
     let mut best: Option<FoundPlaces> = None;
     for (n, (mut found, mut search)) in raced.into_iter().enumerate() {
-        if n >= go_on && best.as_ref().is_some_and(|b| b.within) {
+        if n >= GO_ON && best.as_ref().is_some_and(|b| b.within) {
             break;
         }
         if search.paused {
             // With other pairs than hinges, good places cost so little that many beyond the thresholds do the task.
             let kept = best.as_ref().is_some_and(|b| b.within);
-            let gives_up = kept && hinges;
+            let gives_up = kept && sketch.structure.form.hinges;
             search.advance(judge, if gives_up { &HOPELESS } else { &NEVER });
             search.paused = false;
             let Some(ended) = search.judge_places(judge) else {
@@ -146,33 +142,24 @@ struct Phase {
     warmth: [f64; 2],
 }
 
-/// Returns the phases of a search: places only, which is cheap, then also motion and forces of the drawn pose, to the end of a cooling at
-/// some warmth between them; then the whole stroke, reheated.
-const fn drawn_first(moves: [usize; 3], between: f64, reheated: f64) -> [Phase; 3] {
-    [
-        Phase {
-            look: Look::Places,
-            moves: moves[0],
-            warmth: [1.0, between],
-        },
-        Phase {
-            look: Look::Motion,
-            moves: moves[1],
-            warmth: [between, 0.0],
-        },
-        Phase {
-            look: Look::Stroke,
-            moves: moves[2],
-            warmth: [reheated, 0.0],
-        },
-    ]
-}
-
-/// Phases of structures that have other pairs than hinges.
-const PHASES: [Phase; 3] = drawn_first([600, 300, 1000], 0.47, 0.5);
-/// Phases of structures that have only hinges. Their drawings need the motion early: with the other phases as many layouts do the task at a
-/// quarter more evaluations.
-const HINGED_PHASES: [Phase; 3] = drawn_first([300, 400, 1000], 0.7, 0.7);
+/// Places only, which is cheap; then also motion and forces of the drawn pose; then the whole stroke, slightly reheated.
+const PHASES: [Phase; 3] = [
+    Phase {
+        look: Look::Places,
+        moves: 600,
+        warmth: [1.0, 0.47],
+    },
+    Phase {
+        look: Look::Motion,
+        moves: 300,
+        warmth: [0.47, 0.0],
+    },
+    Phase {
+        look: Look::Stroke,
+        moves: 1000,
+        warmth: [0.5, 0.0],
+    },
+];
 
 /// Thresholds at which a start lags behind, on its lowest cost over the cost of good places.
 struct Thresholds {
@@ -327,15 +314,10 @@ impl<'s, 'a> Annealing<'s, 'a> {
     /// Goes on until the end of the search, or until it lags behind.
     fn advance(&mut self, judge: &mut Judge<'a>, thresholds: &Thresholds) {
         self.paused = false;
-        let drawn_first = if self.sketch.structure.form.hinges {
-            &HINGED_PHASES
-        } else {
-            &PHASES
-        };
         let phases: &[&[Phase]] = match self.sketch.limits.task.aim {
-            Aim::Balanced => &[drawn_first],
+            Aim::Balanced => &[&PHASES],
             // Good looks do not imply a high force, so every other start skips the drawing phases.
-            Aim::Force if self.start.is_multiple_of(2) => &[drawn_first, &FOR_FORCE],
+            Aim::Force if self.start.is_multiple_of(2) => &[&PHASES, &FOR_FORCE],
             Aim::Force => &[&FOR_FORCE],
         };
         let phases = phases.iter().copied().flatten().skip(self.phase);
