@@ -54,69 +54,79 @@ impl SmallSystem {
         most.into_iter().fold(0.0, f64::max)
     }
 
+    /// Brings the rows to triangular form, and returns the sign of the determinant.
+    fn eliminate_below(&mut self) -> Option<f64> {
+        let (n, w) = (self.size, self.width);
+        let least = 1e-12 * self.largest_entry();
+        let mut sign = 1.0;
+        for c in 0..n {
+            // For non-negative numbers the order of the bits is the order of the values.
+            let bits = |r: &usize| self.entries[r * w + c].abs().to_bits();
+            let pivot = (c..n).max_by_key(bits)?;
+            let size = self.entries[pivot * w + c].abs();
+            if size <= least || !size.is_finite() {
+                return None;
+            }
+            if pivot != c {
+                sign = -sign;
+                let (before, from) = self.entries.split_at_mut(pivot * w);
+                before[c * w..][..w].swap_with_slice(&mut from[..w]);
+            }
+            let (above, below) = self.entries.split_at_mut((c + 1) * w);
+            let own = &above[c * w..];
+            sign *= own[c].signum();
+            // Entries before the next column are not read again, and may change with their neighbours. Few lanes are unrolled.
+            let reduce = match (w - (c + 1) / LANES * LANES) / LANES {
+                1 => reduce_rows::<1>,
+                2 => reduce_rows::<2>,
+                3 => reduce_rows::<3>,
+                _ => reduce_rows::<0>,
+            };
+            reduce(own, below, c);
+        }
+        Some(sign)
+    }
+
     /// Solves for all right sides by elimination with partial pivoting, and returns the sign of the determinant. `None` if a pivot is
     /// negligible compared with the largest entry.
     ///
     /// # Complexity
     /// O(n³) for n unknowns.
     pub fn solve_all(&mut self) -> Option<f64> {
-        let least = 1e-12 * self.largest_entry();
-        let (rows, n, sides) = (&mut self.entries[..], self.size, self.sides);
-        // A constant width unrolls the loops over rows; these are the widths of structures of up to ten links with only hinges.
-        match self.width {
-            4 => eliminate(rows, 4, n, sides, least),
-            8 => eliminate(rows, 8, n, sides, least),
-            12 => eliminate(rows, 12, n, sides, least),
-            width => eliminate(rows, width, n, sides, least),
+        let sign = self.eliminate_below()?;
+        let (n, w) = (self.size, self.width);
+        for c in (0..n).rev() {
+            let (above, own) = self.entries.split_at_mut(c * w);
+            for side in n..n + self.sides {
+                own[side] /= own[c];
+            }
+            for row in above.chunks_exact_mut(w) {
+                let factor = row[c];
+                for (x, o) in row[n..].iter_mut().zip(&own[n..w]) {
+                    *x -= factor * o;
+                }
+            }
         }
+        Some(sign)
     }
 }
 
-/// Solves `n` rows of `w` numbers, with `sides` right sides from column `n` on, if no pivot is at most `least`.
-#[inline(always)]
-fn eliminate(rows: &mut [f64], w: usize, n: usize, sides: usize, least: f64) -> Option<f64> {
-    let mut sign = 1.0;
-    for c in 0..n {
-        // For non-negative numbers the order of the bits is the order of the values.
-        let pivot = (c..n).max_by_key(|r| rows[r * w + c].abs().to_bits())?;
-        let size = rows[pivot * w + c].abs();
-        if size <= least || !size.is_finite() {
-            return None;
+/// Subtracts multiples of a pivot's row from the rows below, so that its column `c` is zero there. `N` is the number of lanes from the next
+/// column on, or 0 for any.
+fn reduce_rows<const N: usize>(own: &[f64], below: &mut [f64], c: usize) {
+    let begin = (c + 1) / LANES * LANES;
+    let inverse = 1.0 / own[c];
+    let (lanes, _) = own[begin..].as_chunks::<LANES>();
+    let count = if N == 0 { lanes.len() } else { N };
+    let lanes = &lanes[..count];
+    for row in below.chunks_exact_mut(own.len()) {
+        if row[c] != 0.0 {
+            let factor = row[c] * inverse;
+            let (row, _) = row[begin..].as_chunks_mut::<LANES>();
+            for (x, o) in row[..count].iter_mut().zip(lanes) {
+                *x = std::array::from_fn(|k| x[k] - factor * o[k]);
+            }
         }
-        let (above, below) = rows.split_at_mut((c + 1) * w);
-        let own = &mut above[c * w..][..w];
-        if pivot != c {
-            sign = -sign;
-            own.swap_with_slice(&mut below[(pivot - c - 1) * w..][..w]);
-        }
-        sign *= own[c].signum();
-        let inverse = 1.0 / own[c];
-        for row in below.chunks_exact_mut(w) {
-            subtract_row(row, own, c, row[c] * inverse);
-        }
-    }
-    for c in (0..n).rev() {
-        let (above, own) = rows.split_at_mut(c * w);
-        let own = &mut own[..w];
-        for side in n..n + sides {
-            own[side] /= own[c];
-        }
-        own[c] = 1.0;
-        for row in above.chunks_exact_mut(w) {
-            subtract_row(row, own, c, row[c]);
-        }
-    }
-    Some(sign)
-}
-
-/// Subtracts a multiple of another row, so that column `c` is zero.
-#[inline(always)]
-fn subtract_row(row: &mut [f64], other: &[f64], c: usize, factor: f64) {
-    if factor != 0.0 {
-        for (x, o) in row.iter_mut().zip(other) {
-            *x -= factor * o;
-        }
-        row[c] = 0.0;
     }
 }
 

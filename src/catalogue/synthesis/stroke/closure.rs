@@ -123,7 +123,7 @@ impl FitEquations for Arms<'_> {
         let size = self.closure.size;
         let (last, slid) = (size - 1, x[size - 1]);
         for (turn, angle) in self.turns.iter_mut().zip(x) {
-            *turn = turn.turned_to(*angle);
+            *turn = LinkPose::turn_by(*angle);
         }
         // A turned side, and its difference from the drawn side.
         let moved = |s: &SumSide, arm: Point| match s.follows {

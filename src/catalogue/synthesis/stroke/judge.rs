@@ -20,7 +20,7 @@ use crate::synthesis::task::Limits;
 const COARSE: Grid = Grid {
     steps: 5.0,
     finest: 0.01,
-    settled: 1e-2,
+    settled: 1e-3,
     forces_everywhere: false,
 };
 
