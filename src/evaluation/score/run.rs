@@ -1,8 +1,6 @@
 //! From a mechanism and a request to the outcome: conditions, diagrams, the twin over a second prime, counts, orbits,
 //! poses and the ranking.
 
-mod opinions;
-
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::exact_field;
 use crate::score::outcome::Outcome;
@@ -10,16 +8,17 @@ use crate::score::outcome::ranked::rank_variants;
 use crate::score::outcome::ranking::RankedPool;
 use crate::score::request::prepare::LooksRounded;
 use crate::score::request::{Check, List, Method, Request, RequestError};
-use crate::score::run::opinions::opinion_on_diagrams;
 use crate::search::Search;
+use crate::search::answer::counts::Counts;
+use crate::search::answer::k_best::Assignment;
 use crate::search::answer::search_counts::SearchCounts;
 use crate::search::answer::search_counts::orbit_counts;
 use crate::search::build::Diagrams;
 use crate::search::check::brute;
 use crate::search::check::other_poses;
-use crate::search::check::second_opinion;
+use crate::search::check::second_opinion::{self, SecondOpinion};
 use crate::search::check::second_prime::{self, PrimeCheck};
-use crate::search::check::singular_values;
+use crate::search::check::singular_values::{self, CHECKED};
 use crate::search::diagram::{Progress, Stop};
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, Symmetry};
@@ -28,6 +27,8 @@ use std::sync::Arc;
 
 pub use crate::score::request::error::RunError;
 
+/// Of so many ideas the first variants get a second opinion.
+const IDEAS: usize = 100;
 /// Brute force looks at no more variants than this.
 const BRUTE_LIMIT: u64 = 1 << 32;
 /// The note if counts are not split by their properties.
@@ -379,4 +380,44 @@ fn count_orbits(
         second_prime::compare_counts([search, twin], [&first.0, &second.0])?;
     }
     Ok((first.0, stops))
+}
+
+/// Returns the finding of singular values on the counts, the listed variants and a sample, if coordinates look rounded.
+fn opinion_on_diagrams(
+    search: &Search,
+    diagrams: &Diagrams,
+    determinate: &Counts,
+    ranking: Option<&RankedPool>,
+    request: &Request,
+) -> Result<Option<SecondOpinion>, RunError> {
+    let Some(written) = &search.conditions.written else {
+        return Ok(None);
+    };
+    let mut listed: Vec<Assignment> = match (ranking, request.list) {
+        (Some(r), _) => r
+            .list
+            .iter()
+            .map(|r| r.variant.clone())
+            .take(CHECKED)
+            .collect(),
+        (_, List::Top(k)) => search.cheapest_variants(diagrams, k.min(CHECKED)).collect(),
+        (_, List::All) => search.cheapest_variants(diagrams, CHECKED).collect(),
+        (_, List::Sample(n)) => {
+            let drawn = search.sample_variants(diagrams, request.seed);
+            drawn.take(n.min(CHECKED)).collect()
+        }
+        (_, List::Nothing) => Vec::new(),
+    };
+    // People are given the first of each idea.
+    if let (None, List::Top(k @ 1..=IDEAS)) = (ranking, request.list) {
+        listed.extend(search.list_ideas(diagrams, k).into_iter().map(|i| i.first));
+    }
+    let most = second_opinion::sample_size(search);
+    let drawn = search
+        .sample_variants(diagrams, request.seed)
+        .take(most)
+        .collect();
+    let said =
+        second_opinion::second_opinion(search, written, listed, drawn, determinate, request.seed)?;
+    Ok(Some(said))
 }

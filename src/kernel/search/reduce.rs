@@ -2,6 +2,5 @@
 //! joints.
 
 pub(in crate::search) mod biconnected;
-pub(in crate::search) mod combinations;
 pub(in crate::search) mod lifetimes;
 pub(in crate::search) mod self_stress_space;

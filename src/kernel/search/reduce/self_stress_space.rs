@@ -11,13 +11,12 @@
 
 use crate::closure::contour::Contour;
 use crate::closure::tree::{path_in, spanning_tree};
-use crate::linalg::echelon::Echelon;
+use crate::linalg::echelon::{Combinations, Echelon};
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::displacement_series::shifted_multiples;
 use crate::search::question::kept::Kept;
 use crate::search::question::space::Variable;
-use crate::search::reduce::combinations::Combinations;
 use crate::search::reduce::lifetimes::{AddedBy, Lifetime, shorten_lifetimes};
 use std::borrow::{Borrow, Cow};
 use std::ops::Range;
