@@ -7,7 +7,6 @@
 //! # Sources
 //! Ireland & Rosen, "A Classical Introduction to Modern Number Theory", ch. 6 (quadratic Gauss sums).
 
-mod cosine;
 pub(crate) mod splitting;
 
 use std::collections::BTreeMap;
@@ -20,11 +19,10 @@ use num_traits::One;
 use super::Scalars;
 use super::exact::ExactError;
 use super::exact::eval::{self, Target};
-use super::exact::plan::PrimePlan;
+use super::exact::plan::{PrimePlan, cosine_relation};
 use super::exact::radical::{Radical, prime_factors};
 use super::expr::Expr;
 use crate::linalg::number_ring::{Element, NumberRing};
-use cosine::cosine_relation;
 
 /// Maximum degree of a field over the rationals.
 pub const MAX_DEGREE: u64 = 64;

@@ -2,6 +2,7 @@
 //! found.
 
 pub mod by_tally;
+pub(crate) mod count;
 pub(crate) mod count_tables;
 pub mod counts;
 pub mod estimate;

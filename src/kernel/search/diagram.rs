@@ -19,7 +19,7 @@ pub(in crate::search) mod within;
 use crate::search::diagram::allowance::{Allowance, carry_ways, cut_down};
 use crate::search::diagram::completion::Ceiling;
 use crate::search::diagram::layer::{CUT, Merge, Nodes};
-pub use crate::search::diagram::layer::{DEAD, Layer, Stop};
+pub use crate::search::diagram::layer::{DEAD, Layer, Progress, Stop};
 use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Role, Spent};
 use crate::search::diagram::stage::Stage;
 use crate::search::diagram::subspaces::NONE;
@@ -27,37 +27,6 @@ use crate::search::diagram::transition::{Step, Steps};
 use crate::search::diagram::within::Within;
 use crate::search::question::space::{Choice, Space};
 use std::ops::Range;
-
-/// Building progress, for whoever shows it.
-#[derive(Debug, Clone, Copy)]
-pub struct Progress {
-    /// Variables done.
-    pub done: usize,
-    /// Variables in all.
-    pub of: usize,
-    /// Nodes so far.
-    pub nodes: usize,
-    /// Nodes of the present layer.
-    pub layer: usize,
-}
-
-impl Progress {
-    /// Creates the progress in a layer after `done` of `of` variables, with `before` nodes before it and `layer` nodes in
-    /// it.
-    pub(in crate::search) fn in_layer(
-        done: usize,
-        of: usize,
-        before: usize,
-        layer: usize,
-    ) -> Progress {
-        Progress {
-            done,
-            of,
-            nodes: before + layer,
-            layer,
-        }
-    }
-}
 
 /// A finished diagram.
 #[derive(Debug, Clone)]
@@ -295,55 +264,45 @@ impl Expanded<'_> {
             }
             merge.take_steps(kind, &mut steps[kind]);
             let keeps = lane.harmless.is_some();
-            children.retain_mut(
-                |Child {
-                     node,
-                     choice,
-                     spent,
-                 }| {
-                    if spent.is_ruled_out(number) {
-                        return true;
-                    }
-                    let from = self.nodes.numbers(*node);
-                    let Some(step) = steps[kind].step(from[kind], *choice) else {
-                        return false;
-                    };
-                    // A row that starts in the gap is a motion that the contours forbid; directions of the gap that no row has are redundant.
-                    let missed = lane.all.closing - step.closed();
-                    spent.add_redundant(number, u32::try_from(missed).unwrap_or(u32::MAX));
-                    let alive = spent.is_within(stage.limits);
-                    if alive && keeps {
-                        steps[kind + 1].want_step(from[kind + 1], *choice);
-                    }
-                    alive
-                },
-            );
+            children.retain_mut(|child| {
+                if child.spent.is_ruled_out(number) {
+                    return true;
+                }
+                let from = self.nodes.numbers(child.node);
+                let Some(step) = steps[kind].step(from[kind], child.choice) else {
+                    return false;
+                };
+                // A row that starts in the gap is a motion that the contours forbid; directions of the gap that no row has are redundant.
+                let missed = lane.all.closing - step.closed();
+                child
+                    .spent
+                    .add_redundant(number, u32::try_from(missed).unwrap_or(u32::MAX));
+                let alive = child.spent.is_within(stage.limits);
+                if alive && keeps {
+                    steps[kind + 1].want_step(from[kind + 1], child.choice);
+                }
+                alive
+            });
             kind += 1;
             if !keeps {
                 continue;
             }
             merge.take_steps(kind, &mut steps[kind]);
-            children.retain_mut(
-                |Child {
-                     node,
-                     choice,
-                     spent,
-                 }| {
-                    if spent.is_ruled_out(number) {
-                        return true;
-                    }
-                    let from = self.nodes.numbers(*node);
-                    let gained = |kind: usize| steps[kind].gained_dimensions(from[kind], *choice);
-                    if gained(kind).is_some_and(|harmless| Some(harmless) <= gained(kind - 1)) {
-                        return true;
-                    }
-                    let held = matches!(lane.role, Role::Held(_));
-                    if held {
-                        spent.rule_out(number);
-                    }
-                    held
-                },
-            );
+            children.retain_mut(|child| {
+                if child.spent.is_ruled_out(number) {
+                    return true;
+                }
+                let from = self.nodes.numbers(child.node);
+                let gained = |kind: usize| steps[kind].gained_dimensions(from[kind], child.choice);
+                if gained(kind).is_some_and(|harmless| Some(harmless) <= gained(kind - 1)) {
+                    return true;
+                }
+                let held = matches!(lane.role, Role::Held(_));
+                if held {
+                    child.spent.rule_out(number);
+                }
+                held
+            });
             kind += 1;
         }
         if let Some(roles) = &stage.ending {

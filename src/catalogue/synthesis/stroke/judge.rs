@@ -58,8 +58,7 @@ pub struct StrokeFigures {
     pub reached: [f64; 2],
     /// Why the tips come no nearer, and no farther apart, if the task asks for more.
     pub ends: [Option<StrokeEnd>; 2],
-    /// The least and the greatest rate of the drive over the opening, in mm or rad per millimetre. By virtual work, this is the force of
-    /// each of two jaws over that of the drive.
+    /// The least and the greatest rate of the drive over the opening, in mm or rad per millimetre: by virtual work, the force of a jaw.
     pub rates: [f64; 2],
     /// The least force of a jaw: N for 1 N of the drive, or for 1 Nm if it turns.
     pub force: f64,
@@ -75,8 +74,7 @@ pub struct StrokeFigures {
     pub size: [f64; 2],
     /// Smallest distance between two pins, in millimetres; infinite if it is not asked for.
     pub pin_distance: f64,
-    /// Smallest distance of the pins and pitch circles of each jaw's half from the middle, in millimetres. Negative if they cross the
-    /// middle.
+    /// Smallest distance of each jaw's half (pins and pitch circles) from the middle, in millimetres; negative if it crosses the middle.
     pub on_side: f64,
     /// Longest over shortest length of a cylinder between two links, from pin to pin; 1 if there is none.
     pub pulled_out: f64,

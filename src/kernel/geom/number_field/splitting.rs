@@ -1,7 +1,7 @@
 //! Primes that split a number field, and primes that show that it is one.
 
 use super::NumberField;
-use super::cosine::{cosine_images, fields_from};
+use crate::geom::exact::plan::{cosine_images, fields_from};
 use crate::linalg::modp::{Field, Residue};
 
 /// A field with the images of its generators in a prime field, under every homomorphism.

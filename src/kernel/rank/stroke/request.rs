@@ -4,6 +4,7 @@ use crate::closure::drive::driven_freedoms;
 use crate::geom::exact::ExactError;
 use crate::model::loads;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::motion::drive_range::follow_range;
 use crate::motion::follow::{Follower, column_slides};
 use crate::motion::pose::{FLAT, Pose};
 use crate::rank::rounded::verdict::RankVerdict;
@@ -264,7 +265,8 @@ pub fn drive_or_any(
     let driven = m.joints_in(state).any(|j| m.joints[j].drive);
     if asked.is_none()
         && !driven
-        && let Some(first) = moving_columns(pose).next()
+        && let Some(first) =
+            moving_columns(pose).find(|&c| !of_ball(pose, c) || leaves_pose(pose, c))
     {
         return Ok((first, Vec::new()));
     }
@@ -296,6 +298,12 @@ pub fn name_of(m: &Mechanism, pose: &Pose, column: usize) -> String {
 /// Returns true if a column can move in a pose.
 fn column_moves(pose: &Pose, column: usize) -> bool {
     Follower::new(pose.clone(), column, &[]).drive_share() > 1e-6
+}
+
+/// Returns true if a column moves beyond a pose. In a singular pose, one that can move at first may go nowhere.
+fn leaves_pose(pose: &Pose, column: usize) -> bool {
+    let way = follow_range(pose, column, &[], None, 8);
+    way.at.iter().any(|x| x.abs() > 1e-6)
 }
 
 /// Returns the columns that can move in a pose, with those of balls last.

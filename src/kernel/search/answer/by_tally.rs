@@ -1,7 +1,7 @@
 //! Variants drawn at random, and the place of a variant in the order of cost. Both follow from the counts of completions, so no other
 //! variant has to be made.
 
-use crate::search::answer::count_tables::Count;
+use crate::search::answer::count::Count;
 use crate::search::answer::count_tables::Tally;
 use crate::search::answer::counts::{fits_u128, limited_kinds};
 use crate::search::answer::k_best::Assignment;

@@ -1,6 +1,6 @@
 //! How many variants there are of each kind.
 
-use crate::search::answer::count_tables::Count;
+use crate::search::answer::count::Count;
 use crate::search::answer::count_tables::totals_by_key;
 use crate::search::answer::keys::{Key, Kinds};
 use crate::search::diagram::Diagram;

@@ -23,10 +23,8 @@ use crate::search::diagram::{self, Diagram, Omitted, Progress};
 use crate::search::question::Question;
 use crate::search::question::conditions::InState;
 use crate::search::question::space::{Choice, Face, Variable};
-use crate::search::reduce::lifetimes::Lifetime;
-use crate::search::reduce::self_stress_space::{
-    ClosingRows, Offered, SelfStressSpace, is_contained,
-};
+use crate::search::reduce::lifetimes::{Lifetime, Offered};
+use crate::search::reduce::self_stress_space::{ClosingRows, SelfStressSpace, is_contained};
 
 /// Returns the diagram of a question for the variables in an order: the smallest there is, or what fits the limits.
 ///

@@ -13,7 +13,8 @@ use crate::search::diagram::{DEAD, Diagram, Layer};
 use crate::search::question::Question;
 use crate::search::question::throughout::{ColumnSeries, FreedomsAlong, ORDER, Throughout};
 use crate::search::reduce::lifetimes::Lifetime;
-use crate::search::reduce::self_stress_space::{ClosingRows, Offered, SelfStressSpace};
+use crate::search::reduce::lifetimes::Offered;
+use crate::search::reduce::self_stress_space::{ClosingRows, SelfStressSpace};
 
 /// Which variants a diagram has.
 #[derive(Debug, Clone, Copy)]

@@ -227,6 +227,37 @@ impl Merge {
     }
 }
 
+/// Building progress, for whoever shows it.
+#[derive(Debug, Clone, Copy)]
+pub struct Progress {
+    /// Variables done.
+    pub done: usize,
+    /// Variables in all.
+    pub of: usize,
+    /// Nodes so far.
+    pub nodes: usize,
+    /// Nodes of the present layer.
+    pub layer: usize,
+}
+
+impl Progress {
+    /// Creates the progress in a layer after `done` of `of` variables, with `before` nodes before it and `layer` nodes in
+    /// it.
+    pub(in crate::search) fn in_layer(
+        done: usize,
+        of: usize,
+        before: usize,
+        layer: usize,
+    ) -> Progress {
+        Progress {
+            done,
+            of,
+            nodes: before + layer,
+            layer,
+        }
+    }
+}
+
 /// Why building ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stop {

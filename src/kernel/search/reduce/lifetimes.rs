@@ -30,8 +30,43 @@ impl Lifetime {
     }
 }
 
+/// A vector of the added motions of a choice.
+pub(in crate::search) type Added = Vec<Residue>;
+
+/// The vectors that the choices of a variable add to a mechanism, in all rows.
+pub(in crate::search) struct Offered {
+    /// The vectors. Most of them belong to several choices.
+    pub(in crate::search) vectors: Vec<Added>,
+    /// The numbers of the vectors of each choice.
+    pub(in crate::search) choices: Vec<Vec<usize>>,
+}
+
+impl Offered {
+    /// Numbers the vectors of each choice.
+    pub(in crate::search) fn from_choices(choices: impl Iterator<Item = Vec<Added>>) -> Offered {
+        let mut vectors = Vec::new();
+        let choices = choices.map(|all| {
+            let numbers = all.into_iter().map(|v| number_in(&mut vectors, v));
+            numbers.collect()
+        });
+        Offered {
+            choices: choices.collect(),
+            vectors,
+        }
+    }
+}
+
+/// Returns the number of something in a list, to which it is added if it is new.
+pub(in crate::search) fn number_in<T: PartialEq>(list: &mut Vec<T>, new: T) -> usize {
+    let known = list.iter().position(|known| *known == new);
+    known.unwrap_or_else(|| {
+        list.push(new);
+        list.len() - 1
+    })
+}
+
 /// A vector, and which variable adds it.
-pub(super) type AddedBy = (usize, Vec<Residue>);
+pub(super) type AddedBy = (usize, Added);
 
 /// Brings some coordinates of vectors, which come in the order of their variables, into a form in which each starts as late as can be, and
 /// tells when they are in use. `last` has the last variable that reaches each, ascending, and stays true.

@@ -17,12 +17,9 @@ use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::displacement_series::shifted_multiples;
 use crate::search::question::kept::Kept;
 use crate::search::question::space::Variable;
-use crate::search::reduce::lifetimes::{AddedBy, Lifetime, shorten_lifetimes};
+use crate::search::reduce::lifetimes::{Added, AddedBy, Lifetime, Offered, shorten_lifetimes};
 use std::borrow::{Borrow, Cow};
 use std::ops::Range;
-
-/// A vector of the added motions of a choice.
-type Added = Vec<Residue>;
 
 /// The vectors that the choices of some variables add, in coordinates for their order.
 #[derive(Debug)]
@@ -38,38 +35,6 @@ pub(in crate::search) struct SelfStressSpace {
     pub(in crate::search) lasting: u32,
     /// Whether a kept link moves at present: such motions are divided out.
     pub(in crate::search) moves_kept: bool,
-}
-
-/// The vectors that the choices of a variable add to a mechanism, in all rows.
-pub(in crate::search) struct Offered {
-    /// The vectors. Most of them belong to several choices.
-    pub(in crate::search) vectors: Vec<Added>,
-    /// The numbers of the vectors of each choice.
-    pub(in crate::search) choices: Vec<Vec<usize>>,
-}
-
-impl Offered {
-    /// Numbers the vectors of each choice.
-    pub(in crate::search) fn from_choices(choices: impl Iterator<Item = Vec<Added>>) -> Offered {
-        let mut vectors = Vec::new();
-        let choices = choices.map(|all| {
-            let numbers = all.into_iter().map(|v| number_in(&mut vectors, v));
-            numbers.collect()
-        });
-        Offered {
-            choices: choices.collect(),
-            vectors,
-        }
-    }
-}
-
-/// Returns the number of something in a list, to which it is added if it is new.
-pub(in crate::search) fn number_in<T: PartialEq>(list: &mut Vec<T>, new: T) -> usize {
-    let known = list.iter().position(|known| *known == new);
-    known.unwrap_or_else(|| {
-        list.push(new);
-        list.len() - 1
-    })
 }
 
 /// The rows to which the motion of each joint contributes: its contours, its couplings, and the links it moves.

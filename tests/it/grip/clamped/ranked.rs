@@ -58,9 +58,10 @@ fn the_ranking_states_its_states() {
     assert_eq!(v["ranking"]["grip"][0]["held"].list().len(), 5);
     assert!(v["variants"][0]["scores"]["by_cost"].whole() > 1);
     let with = |states: &str| {
-        text().replace(
-            "order = \"weighted\"",
-            &format!("order = \"weighted\"\nstates = {states}"),
+        replace_once(
+            text(),
+            "[ranking]",
+            &format!("[ranking]\nstates = {states}"),
         )
     };
     let (code, said, _) = run(&with("[\"free\"]"), "search FILE --format json");
