@@ -53,7 +53,22 @@ impl Moving {
         named: Option<&str>,
     ) -> anyhow::Result<Moving> {
         let pose = Pose::of_file(m, state)?;
-        let (drive, held) = drive_or_any(m, &pose, state, named)?;
+        let drives = drive_or_any(m, &pose, state, named)?.into_iter();
+        let mut tried =
+            drives.map(|drive| Self::along_drive(m, state, pose.clone(), range, named, drive));
+        let first = tried.next().context("nothing can move")?;
+        first.or_else(|why| tried.find_map(Result::ok).ok_or(why))
+    }
+
+    /// Creates the motion of a column, with others held.
+    fn along_drive(
+        m: &Mechanism,
+        state: StateId,
+        pose: Pose,
+        range: Option<&str>,
+        named: Option<&str>,
+        (drive, held): (usize, Vec<usize>),
+    ) -> anyhow::Result<Moving> {
         let slide = column_slides(&pose, drive);
         let unit = if slide { pose.length } else { 1.0 };
         let symbol = if slide { m.length_unit.symbol } else { "rad" };

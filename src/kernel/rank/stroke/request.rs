@@ -4,7 +4,6 @@ use crate::closure::drive::driven_freedoms;
 use crate::geom::exact::ExactError;
 use crate::model::loads;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::motion::drive_range::follow_range;
 use crate::motion::follow::{Follower, column_slides};
 use crate::motion::pose::{FLAT, Pose};
 use crate::rank::rounded::verdict::RankVerdict;
@@ -251,8 +250,8 @@ fn find_drive(
     Ok((chosen, held))
 }
 
-/// Returns the named column, the drive, or otherwise the first column that can move, one of a ball only if no other can.
-/// Also returns the columns that are held.
+/// Returns the named column or the drive, with the columns that are held. If there is neither, returns all columns that can move,
+/// those of balls last: in a singular pose, one that can move at first may go nowhere.
 ///
 /// # Errors
 /// Returns an error if there is no such column.
@@ -261,16 +260,15 @@ pub fn drive_or_any(
     pose: &Pose,
     state: StateId,
     asked: Option<&str>,
-) -> Result<(usize, Vec<usize>), AskedError> {
+) -> Result<Vec<(usize, Vec<usize>)>, AskedError> {
     let driven = m.joints_in(state).any(|j| m.joints[j].drive);
-    if asked.is_none()
-        && !driven
-        && let Some(first) =
-            moving_columns(pose).find(|&c| !of_ball(pose, c) || leaves_pose(pose, c))
-    {
-        return Ok((first, Vec::new()));
+    if asked.is_none() && !driven {
+        let free: Vec<_> = moving_columns(pose).map(|c| (c, Vec::new())).collect();
+        if !free.is_empty() {
+            return Ok(free);
+        }
     }
-    find_drive(m, pose, state, asked)
+    Ok(vec![find_drive(m, pose, state, asked)?])
 }
 
 /// Checks that a range, as written, is in lengths if the drive slides.
@@ -298,12 +296,6 @@ pub fn name_of(m: &Mechanism, pose: &Pose, column: usize) -> String {
 /// Returns true if a column can move in a pose.
 fn column_moves(pose: &Pose, column: usize) -> bool {
     Follower::new(pose.clone(), column, &[]).drive_share() > 1e-6
-}
-
-/// Returns true if a column moves beyond a pose. In a singular pose, one that can move at first may go nowhere.
-fn leaves_pose(pose: &Pose, column: usize) -> bool {
-    let way = follow_range(pose, column, &[], None, 8);
-    way.at.iter().any(|x| x.abs() > 1e-6)
 }
 
 /// Returns the columns that can move in a pose, with those of balls last.

@@ -75,10 +75,7 @@ fn the_ranking_states_its_states() {
     has(&errors, "known: free, clamped");
     // Not a state of the grip.
     let loaded = builtin::text("gripper-10-loaded").unwrap();
-    let loaded = loaded.replace(
-        "order = \"weighted\"",
-        "order = \"weighted\"\nstates = [\"clamped\"]",
-    );
+    let loaded = replace_once(loaded, "[ranking]", "[ranking]\nstates = [\"clamped\"]");
     let (code, _, errors) = run(&loaded, "check FILE");
     assert_eq!(code, Some(2));
     has(&errors, "with the contacts of [workload.grip]");
