@@ -19,14 +19,17 @@ mod work;
 pub use disk::Opening;
 
 use crate::score::request::Request;
-use door::Door;
+use door::{Door, Waiting, WaitingPlace};
 use room::Room;
 use std::io;
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
+/// Most requests with the token at a time: the windows' own, and some more.
+const CONNECTIONS: usize = 64;
 /// The interval between checks of the file and the windows.
 const TICK: Duration = Duration::from_millis(100);
 /// Ticks between two looks at the file.
@@ -121,14 +124,19 @@ impl Studio {
 
 /// Handles each connection on its own thread.
 fn accept_requests(listener: &TcpListener, door: &Arc<Door>, room: &Arc<Room>) {
+    let busy = Arc::new(AtomicUsize::new(0));
+    let waiting = Arc::new(Waiting::default());
     for stream in listener.incoming() {
         let Ok(mut stream) = stream else { continue };
-        let (door, room) = (door.clone(), room.clone());
+        let Some(place) = waiting.enter_queue(&stream) else {
+            continue;
+        };
+        let (door, room, busy) = (door.clone(), room.clone(), busy.clone());
         let made = std::thread::Builder::new().name("studio-request".to_owned());
         // One that cannot be made is a request that is not answered.
         let _ = made.spawn(move || {
             let tried = catch_unwind(AssertUnwindSafe(|| {
-                answer_stream(&mut stream, &door, &room)
+                answer_stream(&mut stream, &door, &room, place, &busy)
             }));
             if tried.is_err() {
                 let words = "the program failed at this; please report it with the file";
@@ -138,8 +146,31 @@ fn accept_requests(listener: &TcpListener, door: &Arc<Door>, room: &Arc<Room>) {
     }
 }
 
-/// Handles a request.
-fn answer_stream(stream: &mut TcpStream, door: &Door, room: &Room) -> io::Result<()> {
+/// A request with the token that is being answered.
+struct Busy<'a>(&'a AtomicUsize);
+
+impl Busy<'_> {
+    /// Returns one more of them, or `None` if there are too many.
+    fn new(all: &AtomicUsize) -> Option<Busy<'_>> {
+        let one = Busy(all);
+        (all.fetch_add(1, Ordering::SeqCst) < CONNECTIONS).then_some(one)
+    }
+}
+
+impl Drop for Busy<'_> {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::SeqCst);
+    }
+}
+
+/// Handles a request. It waits at `place` until it has shown the token, and is one of the `busy` ones after that.
+fn answer_stream(
+    stream: &mut TcpStream,
+    door: &Door,
+    room: &Room,
+    place: WaitingPlace,
+    busy: &AtomicUsize,
+) -> io::Result<()> {
     let mut asked = match http::read_head(stream)? {
         Ok(asked) => asked,
         Err(refusal) => return http::write_reply(stream, &refusal),
@@ -147,6 +178,13 @@ fn answer_stream(stream: &mut TcpStream, door: &Door, room: &Room) -> io::Result
     let path = match door.admit_request(&asked) {
         Ok(path) => path.to_owned(),
         Err(refusal) => return http::write_reply(stream, &refusal),
+    };
+    drop(place);
+    let Some(_one) = Busy::new(busy) else {
+        return http::write_reply(
+            stream,
+            &http::Reply::refusal_reply(503, "too many requests at once"),
+        );
     };
     if let Err(refusal) = http::read_body(stream, &mut asked)? {
         return http::write_reply(stream, &refusal);
@@ -156,5 +194,6 @@ fn answer_stream(stream: &mut TcpStream, door: &Door, room: &Room) -> io::Result
             .windows
             .serve_window(stream, || room.events_now(), || room.has_ended());
     }
-    http::write_reply(stream, &routes::answer_request(&asked, &path, room))
+    let answer = routes::answer_request(&asked, &path, room).packed_for(&asked)?;
+    http::write_reply(stream, &answer)
 }

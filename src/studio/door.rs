@@ -1,7 +1,10 @@
-//! Who may come in: this machine's own page, by the address with the token, and no page of anybody else's.
+//! Who may come in: this machine's own page, by the address with the token, and no page of anybody else's; and who waits there.
 
 use super::http::{Asked, Reply};
+use std::collections::VecDeque;
 use std::fmt::Write as _;
+use std::net::{Shutdown, TcpStream};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Bytes of a token.
 const TOKEN: usize = 16;
@@ -67,4 +70,51 @@ impl Door {
 fn same_text(a: &str, b: &str) -> bool {
     let differ = a.bytes().zip(b.bytes()).fold(0, |d, (x, y)| d | (x ^ y));
     a.len() == b.len() && differ == 0
+}
+
+/// Most connections that wait at a time. The head of a request of the page itself is here at once.
+const MOST_WAITING: usize = 64;
+
+/// Connections that have not shown the token yet, the one that came first at the front. They take no place of those that have: where too
+/// many wait, the one that has waited longest is closed.
+#[derive(Debug, Default)]
+pub(super) struct Waiting {
+    list: Mutex<(u64, VecDeque<(u64, TcpStream)>)>,
+}
+
+impl Waiting {
+    fn lock_list(&self) -> MutexGuard<'_, (u64, VecDeque<(u64, TcpStream)>)> {
+        self.list.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Lets a connection wait until the place that is returned is dropped. Returns `None` if the system has no more handles.
+    pub(super) fn enter_queue(self: &Arc<Self>, stream: &TcpStream) -> Option<WaitingPlace> {
+        let handle = stream.try_clone().ok()?;
+        let mut list = self.lock_list();
+        list.0 += 1;
+        let number = list.0;
+        list.1.push_back((number, handle));
+        if list.1.len() > MOST_WAITING
+            && let Some((_, longest)) = list.1.pop_front()
+        {
+            // Its thread reads the end of the request, and ends.
+            let _ = longest.shutdown(Shutdown::Both);
+        }
+        let waiting = self.clone();
+        Some(WaitingPlace { waiting, number })
+    }
+}
+
+/// The place of a connection that waits.
+#[derive(Debug)]
+pub(super) struct WaitingPlace {
+    waiting: Arc<Waiting>,
+    number: u64,
+}
+
+impl Drop for WaitingPlace {
+    fn drop(&mut self) {
+        let mut list = self.waiting.lock_list();
+        list.1.retain(|(number, _)| *number != self.number);
+    }
 }

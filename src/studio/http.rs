@@ -1,5 +1,7 @@
 //! HTTP/1.1 as far as one page on the same machine needs it: one request a connection, everything bounded.
 
+use flate2::Compression;
+use flate2::write::GzEncoder;
 use std::io::{self, Read, Write};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
@@ -44,7 +46,12 @@ pub(super) struct Reply {
     pub(super) body: Vec<u8>,
     /// The name under which a browser saves it, where it is to.
     pub(super) saved_as: Option<String>,
+    /// Whether the body is packed.
+    pub(super) packed: bool,
 }
+
+/// A shorter body is not compressed, since it fits in one packet.
+const SHORT: usize = 1400;
 
 impl Reply {
     pub(super) fn new(kind: &'static str, body: impl Into<Vec<u8>>) -> Reply {
@@ -53,7 +60,19 @@ impl Reply {
             kind,
             body: body.into(),
             saved_as: None,
+            packed: false,
         }
+    }
+
+    /// Returns the reply, compressed if the client accepts it and it saves enough.
+    pub(super) fn packed_for(mut self, asked: &Asked) -> io::Result<Reply> {
+        let can = asked.header_once("accept-encoding");
+        if self.body.len() > SHORT && can.is_some_and(|c| c.contains("gzip")) {
+            let mut packer = GzEncoder::new(Vec::new(), Compression::fast());
+            packer.write_all(&self.body)?;
+            (self.body, self.packed) = (packer.finish()?, true);
+        }
+        Ok(self)
     }
 
     pub(super) fn json_reply(value: &serde_json::Value) -> Reply {
@@ -190,8 +209,13 @@ pub(super) fn write_reply(stream: &mut TcpStream, answer: &Reply) -> io::Result<
     let saved = answer.saved_as.as_ref().map_or(String::new(), |name| {
         format!("Content-Disposition: attachment; filename=\"{name}\"\r\n")
     });
+    let packed = if answer.packed {
+        "Content-Encoding: gzip\r\n"
+    } else {
+        ""
+    };
     let head = format!(
-        "HTTP/1.1 {} \r\nContent-Type: {}\r\nContent-Length: {}\r\n{saved}{rules}\r\n",
+        "HTTP/1.1 {} \r\nContent-Type: {}\r\nContent-Length: {}\r\n{packed}{saved}{rules}\r\n",
         answer.status,
         answer.kind,
         answer.body.len()
