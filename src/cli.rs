@@ -116,8 +116,16 @@ fn run_command(args: &Args) -> anyhow::Result<Done> {
 /// # Errors
 /// Returns an error if a word or a file is refused.
 pub fn printed(words: &[OsString], file: Option<(String, String)>) -> anyhow::Result<String> {
-    let args = Args::try_parse_from(std::iter::once(&"ozols".into()).chain(words))?;
-    terminal::output::kept::forget_files();
+    let args = Args::try_parse_from(std::iter::once(&"ozols".into()).chain(words));
+    let args = args.map_err(|e| {
+        // The usage of a command is of no use to a caller in code.
+        let text = e.render().to_string();
+        let end = text.find("\n\n").unwrap_or(text.len());
+        anyhow::Error::msg(text[..end].trim_start_matches("error: ").to_owned())
+    })?;
+    if file.is_none() {
+        terminal::output::kept::forget_files();
+    }
     terminal::output::hush_notes();
     option::load::give_file(file);
     let printed = terminal::output::catch(|| run_command(&args));

@@ -249,3 +249,9 @@ def test_a_variant_is_a_mechanism_and_is_drawn_with_its_changes():
 @pytest.mark.parametrize("format", ["toml", "json", "urdf", "mjcf", "sdf", "dot"])
 def test_exports_are_the_commands(format, in_tmp):
     assert command("export", "four-bar", "--to", format).stdout == Mechanism.builtin("four-bar").export(format)
+
+
+def test_a_stroke_has_a_tolerance():
+    """Singular values decide the rank at each pose."""
+    poses = Mechanism.builtin("four-bar").stroke("0:9deg:2", tolerance=1e-6).poses
+    assert [(p.mobility, p.redundant) for p in poses] == [(1, 3)] * 3

@@ -207,7 +207,9 @@ class Mechanism:
         >>> Mechanism.builtin("four-bar").stroke("0:90deg:3").poses[-1].mobility
         1
         """
-        words = _words(stroke=_range(range), drive=drive, state=state, tolerance=tolerance)
+        # Singular values have a tolerance.
+        method = None if tolerance is None else "svd"
+        words = _words(stroke=_range(range), drive=drive, state=state, tolerance=tolerance, method=method)
         return Stroke(["analyze", "-", *words], self)
 
     def statics(

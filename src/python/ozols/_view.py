@@ -105,22 +105,25 @@ class Answer(View):
     ``print(answer)`` shows the text; a notebook shows the declared keys of :attr:`records` as a table.
     """
 
-    __slots__ = ("_mechanism", "_words")
+    __slots__ = ("_mechanism", "_printed", "_words")
     #: The key of the main table.
     _rows: ClassVar[str | None] = None
 
     def __init__(self, words: Sequence[str], mechanism: Mechanism | None = None) -> None:
         """Runs a command; the mechanism is its file ``-``."""
         self._words, self._mechanism = words, mechanism
+        self._printed: dict[tuple[str, ...], str] = {}
         data = json.loads(self._print("--format=json"))
         data.pop("format", None)
         super().__init__(data)
 
     def _print(self, *words: str) -> str:
-        """Returns what the command prints with further words."""
-        command, *others = self._words
-        about = None if self._mechanism is None else self._mechanism._native
-        return _native.printed([command, *words, *others], about)
+        """Returns what the command prints with further words. It runs once for the same words."""
+        if words not in self._printed:
+            command, *others = self._words
+            about = None if self._mechanism is None else self._mechanism._native
+            self._printed[words] = _native.printed([command, *words, *others], about)
+        return self._printed[words]
 
     @property
     def text(self) -> str:
