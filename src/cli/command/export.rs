@@ -84,7 +84,7 @@ fn import_file(a: &Export) -> anyhow::Result<Option<Imported>> {
     Ok(None)
 }
 
-/// Writes the mechanism file of a description, with comments on what was merged and approximated.
+/// Writes the mechanism file of a description, and reports on standard error what was moved, approximated and omitted.
 fn mechanism_file(a: &Export, imported: &Imported) -> anyhow::Result<Done> {
     let width = output::error_width();
     output::print_note(&fit_lines(&imported.report.text(&a.file), width));

@@ -205,7 +205,11 @@ fn read_mode(file: &MechanismFile, out: &Findings) -> Mode {
     Mode::Planar { normal }
 }
 
-fn read_expected(file: &MechanismFile, mechanism: &Parts, out: &Findings) -> Vec<Expected> {
+pub(crate) fn read_expected(
+    file: &MechanismFile,
+    mechanism: &Parts,
+    out: &Findings,
+) -> Vec<Expected> {
     let mut list = Vec::new();
     for (at, e) in out.key("expected").each_entry(&file.expected) {
         let state = e.state.clone().unwrap_or_else(|| "free".to_owned());

@@ -3,9 +3,9 @@
 mod number;
 
 use crate::file::prelude::*;
-use crate::file::read::read_tables;
 use crate::file::read::resolve::motion_name;
 use crate::file::read::value::with_parameters;
+use crate::file::read::{read_claims, read_expected, read_tables};
 pub(crate) use crate::file::write::number::plain_number;
 use crate::file::write::number::{write_component, write_coordinate, write_ratio};
 use crate::model::loads::Inertia;
@@ -88,15 +88,20 @@ fn kept_tables(m: &Mechanism) -> MechanismFile {
     MechanismFile::deserialize(&*m.tables).unwrap_or_default()
 }
 
-/// Returns true if the loads and the ranking are those of the file, which are written.
+/// Returns true if the loads, the ranking, the figures and the claims are those of the file, which are written. A redesign has no figures
+/// and claims.
 pub(crate) fn has_own_tables(m: &Mechanism) -> bool {
     let kept = kept_tables(m);
     let mut out = with_parameters(&kept);
     out.states.clone_from(&m.states);
     let mut again = m.clone().into_parts();
     read_tables(&kept, &mut again, &out);
+    again.expected = read_expected(&kept, &again, &out);
+    again.claims = read_claims(&kept, &out);
     let told = |m: &Parts| format!("{:?} {:?}", m.loads, m.ranking);
     told(&again) == told(m)
+        && (m.expected.is_empty() || m.expected == again.expected)
+        && (m.claims.is_empty() || m.claims == again.claims)
 }
 
 /// Returns the capacities of joint types; their costs are under `[search.costs]`.

@@ -239,7 +239,7 @@ impl Robot {
         l
     }
 
-    /// Adds the joint of an element that closes a loop between a place on one link and a place on another. `word` counts it.
+    /// Adds the joint of an element that closes a loop between a place on one link and a place on another.
     ///
     /// # Errors
     /// Returns an error if both places are on the same link.

@@ -54,7 +54,7 @@ pub struct Report {
     pub assumed: Vec<String>,
     /// Parts, joints and documents that are switched off, loose or not read: their names by kind.
     pub dropped: BTreeMap<String, Vec<String>>,
-    /// Rows of omitted couplings and joints, at most.
+    /// Maximum number of rows of the omitted couplings and joints.
     pub left_out: usize,
     /// Freedoms as a CAD program counts them, for an assembly: 6 a moving part, less all constraints of joints, which is W minus σ.
     pub cad_freedoms: Option<i64>,
@@ -224,9 +224,9 @@ pub enum ExportError {
         /// The known words.
         known: String,
     },
-    /// The loads or the ranking are not those of the file that the mechanism was read from.
+    /// The loads, the ranking, the figures or the claims are not those of the file that the mechanism was read from.
     #[error(
-        "the loads or the ranking were changed in code, and only those of a file can be written; change them in the file and read it again"
+        "the loads, the ranking, the figures or the claims were changed in code, or name what was renamed, and only those of a file can be written; change them in the file and read it again"
     )]
     Changed,
     /// The TOML writer failed.
