@@ -133,7 +133,7 @@ impl HigherOrder {
             while lines.len() < terms.len() {
                 let at: Vec<Residue> = (0..m).map(|_| random()).collect();
                 let speeds: Vec<Residue> = span.iter().map(|q| field.dot(q, &at)).collect();
-                let mut line = Expansion::along(&self.solved, &speeds);
+                let mut line = Expansion::from_speeds(&self.solved, &speeds);
                 (2..degree).for_each(|_| {
                     line.next_order(|_| 0);
                 });
@@ -189,7 +189,7 @@ impl HigherOrder {
     /// Returns the equations in the free coordinates to second order at these weights.
     #[must_use]
     pub(super) fn second_order(&self, weights: &[Residue]) -> Vec<Residue> {
-        Expansion::along(&self.solved, &self.speeds_along(weights)).next_order(|_| 0)
+        Expansion::from_speeds(&self.solved, &self.speeds_along(weights)).next_order(|_| 0)
     }
 
     /// Returns the field and the number of free coordinates.

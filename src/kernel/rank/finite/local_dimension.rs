@@ -293,8 +293,18 @@ impl DimensionSearch {
         if quadrics.is_empty() || directions.len() < 4 {
             directions.extend((0..8).map(|_| self.random_direction(n)));
         }
+        let sampled = if quadrics.is_empty() {
+            at_most
+        } else {
+            quadrics.cone_dimension(&seeds).min(at_most)
+        };
         let from = self.along_branches(pose, &flat, &directions, scale, depth);
-        Some(Traced::between(from, at_most))
+        let to = if self.poses < self.budget {
+            sampled.max(from)
+        } else {
+            at_most
+        };
+        Some(Traced::between(from, to))
     }
 
     /// Returns the largest dimension found along branches in some directions, as far as the budget allows.
@@ -353,7 +363,15 @@ impl DimensionSearch {
                 return d;
             }
         }
-        best
+        if depth < DEPTH {
+            for branch in same.iter().take(3) {
+                let distance = (norm(&branch.far) * 0.5).min(scale);
+                let there = pose.moved_to(&branch.far);
+                let found = self.dimension_at(&there, None, true, distance, depth + 1);
+                best = best.max(found.map_or(0, |f| f.mobility));
+            }
+        }
+        best.min(n - 1)
     }
 }
 

@@ -167,6 +167,12 @@ impl Quadrics {
         self.forms.len() == forms && zeros.iter().any(independent)
     }
 
+    /// Returns the largest dimension of the cone at the zeros found.
+    pub(in crate::rank) fn cone_dimension(&self, zeros: &[Vec<f64>]) -> usize {
+        let of = |x: &Vec<f64>| self.nullity_at(x);
+        zeros.iter().map(of).max().unwrap_or(0)
+    }
+
     /// Returns true if some combination of the forms is definite, so that they have no common zero.
     pub(in crate::rank) fn is_definite(&self) -> bool {
         self.definite_combination().is_some()

@@ -191,7 +191,7 @@ pub(super) struct Expansion<'a> {
 
 impl<'a> Expansion<'a> {
     /// Creates the expansion to first order of a motion that begins with these speeds, J x = 0.
-    pub(super) fn along(of: &'a Solved, speeds: &[Residue]) -> Expansion<'a> {
+    pub(super) fn from_speeds(of: &'a Solved, speeds: &[Residue]) -> Expansion<'a> {
         let mut walks = at_rest(of);
         pass_contours(of.field, &mut walks, 1, |c| speeds[c]);
         Expansion {
@@ -227,6 +227,7 @@ impl<'a> Expansion<'a> {
         left
     }
 }
+
 /// Expands a motion that begins with these speeds, J x = 0, until it is stopped, to an order, or as far as the work
 /// allows.
 ///
@@ -241,7 +242,7 @@ pub(super) fn expand_line(
     bent: Option<&[Residue]>,
     order: usize,
 ) -> (Line, Vec<Vec<Residue>>) {
-    let mut expansion = Expansion::along(of, speeds);
+    let mut expansion = Expansion::from_speeds(of, speeds);
     let passed: usize = of.walks.iter().map(Vec::len).sum();
     let products = |d: usize| 30 * d * passed + of.solve.len() * of.solve.len();
     let mut work = products(1);
