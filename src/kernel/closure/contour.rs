@@ -353,7 +353,7 @@ impl Tree {
         (!in_tree && apart).then(|| (dx + dy + e.weight().length, e.id().index()))
     }
 
-    /// Returns the edges of that walk.
+    /// Returns the edges of that walk, in order.
     fn closing_cycle(&self, graph: &Graph, e: usize) -> Vec<usize> {
         let e = EdgeIndex::new(e);
         let Some((x, y)) = graph.edge_endpoints(e) else {

@@ -16,8 +16,9 @@ use crate::model::mechanism::{Frame, JointId, Mechanism, StateId};
 /// A driven joint and the freedom its drive moves.
 pub type Driven = (JointId, Freedom);
 
-/// Returns the freedoms that the drives of a state move, one for each driven joint that moves in the mechanism's space. If
-/// the plane of a mechanism does not have the usual one and the file names none, it is the first one that the plane has.
+/// Returns the freedoms that the drives of a state move, one for each driven joint that moves in the mechanism's space. That
+/// is [`Joint::driven_freedom`](crate::model::mechanism::Joint::driven_freedom). In a plane that excludes it, it is the first freedom of the
+/// joint that stays in the plane, unless the file names one. Drives that cannot move there are left out.
 ///
 /// # Examples
 /// ```

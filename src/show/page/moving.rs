@@ -53,11 +53,14 @@ impl Moving {
         named: Option<&str>,
     ) -> anyhow::Result<Moving> {
         let pose = Pose::of_file(m, state)?;
-        let drives = drive_or_any(m, &pose, state, named)?.into_iter();
+        let drives = drive_or_any(m, &pose, state, named)?;
         let mut tried =
             drives.map(|drive| Self::along_drive(m, state, pose.clone(), range, named, drive));
-        let first = tried.next().context("nothing can move")?;
-        first.or_else(|why| tried.find_map(Result::ok).ok_or(why))
+        match tried.next().context("nothing can move")? {
+            // A range is that of the first.
+            Err(why) if range.is_none() => tried.find_map(Result::ok).ok_or(why),
+            moved => moved,
+        }
     }
 
     /// Creates the motion of a column, with others held.

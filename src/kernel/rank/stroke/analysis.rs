@@ -133,7 +133,6 @@ impl<'a> Looker<'a> {
                 (points.iter().map(|p| p[i]).sum::<f64>() / n - pose.middle[i]) / pose.length
             })
         };
-        let present = |l: &LinkId| m.joints_at(*l, request.state).next().is_some();
         Looker {
             request,
             tolerance: request.tolerance.unwrap_or(FLAT),
@@ -143,9 +142,8 @@ impl<'a> Looker<'a> {
             },
             unit: if slides { pose.length } else { 1.0 },
             outputs: m
-                .link_ids()
+                .links_in(request.state)
                 .filter(|&l| m.links[l].role == Role::Output)
-                .filter(present)
                 .map(|l| (l, middle(l)))
                 .collect(),
         }

@@ -2,6 +2,7 @@
 
 use crate::closure::drive::driven_freedoms;
 use crate::geom::exact::ExactError;
+use crate::model::joint_type::Freedom;
 use crate::model::loads;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::follow::{Follower, column_slides};
@@ -9,6 +10,7 @@ use crate::motion::pose::{FLAT, Pose};
 use crate::rank::rounded::verdict::RankVerdict;
 use crate::rank::stroke::analysis::StrokeRequest;
 use itertools::Itertools;
+use std::iter;
 use thiserror::Error;
 
 /// Maximum number of steps, since every pose along the path is kept.
@@ -232,11 +234,15 @@ fn find_drive(
             column(joint, freedom)?
         }
         None => {
-            let (joint, freedom) = drives.first().ok_or_else(|| AskedError::NoDrive {
+            let mut driven = m.joints_in(state).filter(|&j| m.joints[j].drive);
+            let joint = driven.next().ok_or_else(|| AskedError::NoDrive {
                 name: m.name.clone(),
                 could: describe_choices(m, pose, &names),
             })?;
-            column(*joint, Some(freedom.name()))?
+            // A drive that cannot move in the plane has none of the driven freedoms.
+            let moved = drives.iter().find(|(j, _)| *j == joint).map(|d| d.1);
+            let freedom = moved.or(m.joints[joint].drive_freedom);
+            column(joint, freedom.map(Freedom::name))?
         }
     };
     let own = pose.columns[chosen].joint;
@@ -250,25 +256,28 @@ fn find_drive(
     Ok((chosen, held))
 }
 
+/// A column that moves, and those that are held.
+pub type Moved = (usize, Vec<usize>);
+
 /// Returns the named column or the drive, with the columns that are held. If there is neither, returns all columns that can move,
-/// those of balls last: in a singular pose, one that can move at first may go nowhere.
+/// those of balls last: in a singular pose, one that can move at first may go nowhere. A column is examined when it is asked for.
 ///
 /// # Errors
 /// Returns an error if there is no such column.
-pub fn drive_or_any(
+pub fn drive_or_any<'p>(
     m: &Mechanism,
-    pose: &Pose,
+    pose: &'p Pose,
     state: StateId,
     asked: Option<&str>,
-) -> Result<Vec<(usize, Vec<usize>)>, AskedError> {
+) -> Result<Box<dyn Iterator<Item = Moved> + 'p>, AskedError> {
     let driven = m.joints_in(state).any(|j| m.joints[j].drive);
     if asked.is_none() && !driven {
-        let free: Vec<_> = moving_columns(pose).map(|c| (c, Vec::new())).collect();
-        if !free.is_empty() {
-            return Ok(free);
+        let mut free = moving_columns(pose).map(|c| (c, Vec::new())).peekable();
+        if free.peek().is_some() {
+            return Ok(Box::new(free));
         }
     }
-    Ok(vec![find_drive(m, pose, state, asked)?])
+    Ok(Box::new(iter::once(find_drive(m, pose, state, asked)?)))
 }
 
 /// Checks that a range, as written, is in lengths if the drive slides.

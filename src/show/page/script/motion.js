@@ -135,7 +135,7 @@ function figuresAt(d, jaws, { pose, tips }) {
   });
   const moves = tips.map((t, n) => speed(d.jaws[n], t));
   const works = outwards(d).map((u, n) => Math.abs(moves[n][0] * u[0] + moves[n][1] * u[1]));
-  // The work of a link over the most that the forces at its moving joints could do; a thread pushes along its axis.
+  // The work of a link over the largest work of the forces at its moving joints; a thread pushes along its axis.
   const passed = (link, work) => {
     const own = [...forces].filter(([joint, e]) => joint !== d.drive && !joint.thread && e.ends.includes(link) && !e.ends.includes(d.frame));
     return work / own.reduce((sum, [, e]) => sum + Math.hypot(...e.force) * Math.hypot(...speed(link, e.at)), 1e-12);

@@ -67,7 +67,7 @@ function strokeCharts(c, frames) {
   const forces = all.map((f) => f.force), words = (what) => `${what} from open to closed: `;
   return element('div', { class: 'two' },
     strokeChart(`${words('Jaw force')}${short(c.force_min)} to ${short(c.force_max)} ${unit(c)}`, widths, forces, Math.max(...forces)),
-    strokeChart(`${words('Transmission angle')}${short(c.transmission)}° at least, 90° at the top`, widths, all.map((f) => f.angle), 90));
+    strokeChart(`${words('Transmission angle')}minimum ${short(c.transmission)}°, 90° at the top`, widths, all.map((f) => f.angle), 90));
 }
 
 /** The drawing of what is chosen, with how far it is open. */
