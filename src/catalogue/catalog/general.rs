@@ -218,7 +218,7 @@ impl General {
                 return Ok(Some(General {
                     counts: one.count_variants(diagram, false).by_mobility_and_changes,
                     minimal: one.minimal_variants(&diagrams),
-                    idea_variants: one.idea_variants(&diagrams),
+                    idea_variants: one.idea_variants(&diagrams).into_owned(),
                     symmetric: Symmetric::search_symmetric(&one.mechanism, &request)?,
                     ideas: Mutex::default(),
                     diagram: diagrams.determinate,

@@ -169,7 +169,7 @@ pub fn transpose(vectors: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
 #[derive(Debug)]
 pub(crate) struct Combinations {
     count: usize,
-    /// Behind each vector its unit, negative: what reduces to nothing carries its factors there.
+    /// Each vector is followed by its negative unit vector, so a sum that reduces to zero leaves its factors there.
     rows: Echelon,
 }
 
@@ -177,7 +177,7 @@ impl Combinations {
     /// Prepares the combinations of some vectors.
     ///
     /// # Complexity
-    /// O(n²·w) field operations for n vectors of w coordinates.
+    /// O(n²·(w + n)) field operations for n vectors of w coordinates.
     pub(crate) fn new<V: AsRef<[Residue]>>(field: Field, vectors: &[V]) -> Combinations {
         let count = vectors.len();
         let mut rows = Echelon::new(field);

@@ -5,7 +5,7 @@ use crate::model::{JointId, LinkId};
 use serde::Deserialize;
 
 /// Stated figures of a mechanism, with their source.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Expected {
     /// Name of the state.
     pub state: String,

@@ -129,7 +129,7 @@ pub(in crate::score) fn prove_best(
     pool.proven = ended.is_none();
     pool.missing = pool.missing.take().filter(|_| !pool.proven);
     if let (Some(missing), Some(last)) = (&mut pool.missing, pool.list.last()) {
-        missing.last = last.scores.weighted_sum(&ranking);
+        missing.last = last.total;
     }
 }
 
@@ -334,7 +334,7 @@ impl Walker<'_> {
     /// Updates the largest sum of a variant that still enters the list.
     fn update_allowed(&mut self) {
         let last = self.list.get(self.walk.top - 1);
-        let sum = last.map_or(f64::INFINITY, |r| r.scores.weighted_sum(self.walk.ranking));
+        let sum = last.map_or(f64::INFINITY, |r| r.total);
         self.allowed = sum + MARGIN * (1.0 + sum.abs());
     }
 

@@ -61,8 +61,8 @@ pub fn ease_request(request: &Request, how: Relaxation) -> Request {
 }
 
 impl Outcome {
-    /// Returns the remarks on the variants, as far as there was time until `cancelled` said to end. If some variants keep the motion in the
-    /// drawn pose only, easing gives these.
+    /// Returns the remarks on the variants, as far as there was time until `cancelled` said to end. If some variants keep the
+    /// motion in the drawn pose only, the remarks count these.
     ///
     /// # Errors
     /// Returns an error if the geometry has no exact image.

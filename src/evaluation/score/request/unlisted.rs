@@ -135,8 +135,8 @@ impl Request {
         }
     }
 
-    /// Offers the types that are named and that no joint has an option of: those of `--options` wherever a file's list would be
-    /// offered, those of `--allow` at their joint. `tell` hears of directions that nobody stated.
+    /// Offers the types that are named and that no joint has an option of: those for all joints wherever a file's list would be
+    /// offered, those for one joint at it. `tell` hears of directions that nobody stated.
     pub(in crate::score) fn offer_unlisted(
         &self,
         mechanism: &mut Mechanism,

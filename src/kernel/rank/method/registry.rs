@@ -1,4 +1,4 @@
-//! The list of methods, used by `--method`, the survey and the charts.
+//! The list of methods, used by the command line, the survey and the charts.
 
 use crate::rank::exact::{modular::MODULAR, rational::RATIONAL};
 use crate::rank::method::MobilityMethod;

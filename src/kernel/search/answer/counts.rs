@@ -51,7 +51,7 @@ pub fn count_orbits(all: &BigUint, kept: &BigUint, order: usize) -> BigUint {
 }
 
 impl Counts {
-    /// Replaces each number by a function of it and of the number that others have of the same kind.
+    /// Replaces each number `n` by `of(n, m)`, where `m` is the number of the same kind in `others`.
     pub(in crate::search) fn combine_with(
         &mut self,
         others: &Counts,

@@ -23,6 +23,7 @@ use crate::search::question::Question;
 use crate::search::question::space::{Variable, choice_name};
 use itertools::Itertools;
 use num_bigint::BigUint;
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Variants that differ only in which of some joints in series has which of the freedoms added.
@@ -50,9 +51,9 @@ impl Question {
     /// Returns the admissible variants that ideas consist of: those for which no other has only a part of their
     /// freedoms and costs no more. Returns all if these are unknown.
     #[must_use]
-    pub fn idea_variants(&self, diagrams: &Diagrams) -> Diagram {
+    pub fn idea_variants<'d>(&self, diagrams: &'d Diagrams) -> Cow<'d, Diagram> {
         let all = diagrams.listed_diagram();
-        minimal_variants(self, all, Less::Means).unwrap_or_else(|| all.clone())
+        minimal_variants(self, all, Less::Means).map_or(Cow::Borrowed(all), Cow::Owned)
     }
 
     /// Returns at most `top` first ideas, each of all minimal variants that give the same freedoms to the same

@@ -5,6 +5,7 @@ use crate::search::build::{Diagrams, build_diagrams};
 use crate::search::diagram::{Diagram, Stop};
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, SearchError, Symmetry};
+use num_bigint::BigUint;
 
 /// The counts of a search.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -42,7 +43,8 @@ impl SearchCounts {
     }
 }
 
-/// Computes the counts of orbits from those of all variants, by a search for the symmetric ones and Burnside's lemma. Also returns why that search ended.
+/// Returns the counts of orbits by Burnside's lemma, from those of all variants and a search for the symmetric ones. Also returns why that
+/// search ended.
 ///
 /// # Errors
 /// Returns an error in the same cases as [`Question::new`].
@@ -66,7 +68,12 @@ pub fn orbit_counts(
     let order = question.mechanism.search.symmetry_order();
     let kept = SearchCounts::of_diagrams(&symmetric, &diagrams);
     let orbits = |all: &mut Counts, kept: &Counts| {
-        all.combine_with(kept, &|n, kept| count_orbits(n, kept, order));
+        let of = |n: &BigUint, kept: &BigUint| count_orbits(n, kept, order);
+        if all.only_total {
+            all.total = of(&all.total, &kept.total);
+        } else {
+            all.combine_with(kept, &of);
+        }
     };
     orbits(&mut all.determinate, &kept.determinate);
     orbits(&mut all.admissible, &kept.admissible);

@@ -144,7 +144,7 @@ type Found = Option<(Relaxation, BigUint)>;
 /// How conditions are eased.
 type Change<'a> = &'a dyn Fn(&mut Conditions);
 
-/// Changes the conditions in the searched state, if there is one.
+/// Applies a change to the conditions in the searched state, if there is one.
 fn in_state(conditions: &mut Conditions, change: &dyn Fn(&mut InState)) {
     conditions.state.iter_mut().for_each(change);
 }

@@ -8,6 +8,7 @@ use crate::search::check::variant_mechanism;
 use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::question::Question;
 use crate::search::question::rounded_rank::{Digits, RankRange};
+use std::ops::RangeInclusive;
 
 /// The result for a variant.
 #[derive(Debug, Clone, Copy)]
@@ -16,7 +17,7 @@ pub(super) struct Judged {
     pub(super) determinate: Answer,
     /// Whether it meets every condition.
     pub(super) admissible: Answer,
-    /// Its properties, if it does: of a range of ranks the smallest numbers of redundant constraints.
+    /// Its properties; if ranks are a range, with the fewest redundant constraints that are possible.
     pub(super) key: Key,
 }
 
@@ -86,32 +87,46 @@ impl<'s> Judge<'s> {
         let determinate = Answer::of(is_possible && least == most, is_possible);
         let mut admissible = determinate;
         if is_possible {
-            if conditions.keep_output {
-                admissible = admissible.combine_with(self.keeps_output(choices, free)?);
-            }
-            let wanted = |internal| {
-                let redundancy = Redundancy { internal, ..found };
-                self.question.is_wanted(self.key_with(choices, redundancy))
-            };
-            let mut which = least..=most.min(conditions.max_redundant);
-            let wanted = Answer::of(which.clone().all(wanted), which.any(wanted));
-            admissible = admissible.combine_with(wanted);
-        }
-        if let Some(asked) = conditions.state
-            && admissible != Answer::No
-        {
-            let realized = variant_mechanism::realize_variant(self.question, choices);
-            let external = self.external_range(choices, free)?;
-            let (question, digits) = (self.question, self.digits);
-            let (meets, harmful) = judge_in_state(question, &realized, &asked, external, digits)?;
-            admissible = admissible.combine_with(meets);
-            (found.external, found.harmful) = (external[0], harmful);
+            let internal = least..=most.min(conditions.max_redundant);
+            let judged = self.judge_further(choices, free, internal, &mut found);
+            admissible = judged.map_or(Answer::Perhaps, |further| admissible.combine_with(further));
         }
         Some(Judged {
             determinate,
             admissible,
             key: self.key_with(choices, found),
         })
+    }
+
+    /// Judges whether a variant with so many redundant constraints meets the further conditions, and completes what it has `found` in the
+    /// searched state. Returns `None` if the singular values do not converge.
+    fn judge_further(
+        &self,
+        choices: &[usize],
+        free: RankRange,
+        mut internal: RangeInclusive<u32>,
+        found: &mut Redundancy,
+    ) -> Option<Answer> {
+        let conditions = &self.question.conditions;
+        let wanted = |internal| {
+            let redundancy = Redundancy { internal, ..*found };
+            self.question.is_wanted(self.key_with(choices, redundancy))
+        };
+        let mut meets = Answer::of(internal.clone().all(wanted), internal.any(wanted));
+        if conditions.keep_output {
+            meets = meets.combine_with(self.keeps_output(choices, free)?);
+        }
+        if let Some(asked) = conditions.state
+            && meets != Answer::No
+        {
+            let realized = variant_mechanism::realize_variant(self.question, choices);
+            let external = self.external_range(choices, free)?;
+            let (question, digits) = (self.question, self.digits);
+            let (holds, harmful) = judge_in_state(question, &realized, &asked, external, digits)?;
+            meets = meets.combine_with(holds);
+            (found.external, found.harmful) = (external[0], harmful);
+        }
+        Some(meets)
     }
 
     fn key_with(&self, choices: &[usize], redundancy: Redundancy) -> Key {

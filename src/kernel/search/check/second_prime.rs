@@ -19,7 +19,7 @@ use thiserror::Error;
 pub struct PrimeCheck {
     /// Both primes.
     pub primes: [u64; 2],
-    /// Whether they agree. If not, the search was interrupted, and where depends on the clock: there is nothing to compare.
+    /// Whether they agree. False only if the search was interrupted: where depends on the clock, so nothing was compared.
     pub agree: bool,
 }
 
@@ -57,7 +57,7 @@ pub fn build_both(
 /// Compares the diagrams of a search with those of its twin over another prime.
 ///
 /// # Errors
-/// Returns an error with both counts if they differ.
+/// Returns an error with both counts if the diagrams differ, even if the counts are equal.
 ///
 /// # Complexity
 /// O(edges) if the diagrams are equal, as they have always been. Otherwise both are counted.

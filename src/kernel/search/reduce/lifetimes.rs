@@ -42,7 +42,7 @@ pub(in crate::search) struct Offered {
 }
 
 impl Offered {
-    /// Numbers the vectors of each choice.
+    /// Returns the vectors of all choices, each once, and the numbers of those of each choice.
     pub(in crate::search) fn from_choices(choices: impl Iterator<Item = Vec<Added>>) -> Offered {
         let mut vectors = Vec::new();
         let choices = choices.map(|all| {
