@@ -117,8 +117,8 @@ pub(crate) struct Which {
     /// Node budget of each diagram; a node takes about 1 KB of memory (twice that with a check).
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     nodes: usize,
-    /// Memory limit of the search, for example 500M or 2G [default: a quarter of the machine's memory]. If it is reached, counts
-    /// are lower bounds, as with --nodes.
+    /// Memory limit of the search, for example 500M or 2G [default: a quarter of the machine's memory on Linux, 4G
+    /// elsewhere]. If it is reached, counts are lower bounds, as with --nodes.
     #[arg(long, value_name = "BYTES", value_parser = machine::parse_bytes)]
     #[serde(skip)]
     pub(crate) memory: Option<usize>,

@@ -103,7 +103,7 @@ fn best_place(wish: &Wish, taken: &[Rect], lines: &[AvoidedLine]) -> LabelPlace 
         let far = away - wish.clear;
         let ring = far * 0.06 + if far > NEAR { 1.5 } else { 0.0 };
         if let Some((least, place)) = &best
-            && (*least <= ring || away >= farthest + 40.0)
+            && (*least <= ring || away >= farthest + 40.0 || farthest.is_nan())
         {
             return place.clone();
         }

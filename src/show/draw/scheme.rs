@@ -58,9 +58,7 @@ pub fn scheme(subject: &Subject<'_>) -> Drawing {
 fn collect_parts(subject: &Subject<'_>) -> Parts {
     let m = subject.mechanism;
     let joints: Vec<JointId> = m.joints_in(subject.state).collect();
-    let mut links: Vec<LinkId> = joints.iter().flat_map(|&j| m.joints[j].links).collect();
-    links.sort_unstable();
-    links.dedup();
+    let links: Vec<LinkId> = m.links_in(subject.state).collect();
     let local = |j: JointId| joints.iter().position(|&k| k == j);
     let contours: Vec<(Contour, Option<_>)> = match subject.analysis {
         Some(a) => {

@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use ozols::geom::extent::Extent;
-use ozols::motion::drive_range::Way;
+use ozols::motion::drive_range::{Way, follow_range};
 use ozols::motion::jaws::jaws_meet;
 
 /// A nut of 10 mm lead goes 10 mm a turn, whatever the size of what it belongs to.
@@ -58,6 +58,18 @@ fn paths_pass_joints_either_way() {
     for (a, b) in there.iter().zip(&back) {
         assert_nine_digits(*a, -b);
     }
+}
+
+/// A way counts from the pose of the file, to either side alike.
+#[test]
+fn ways_count_from_the_files_pose() {
+    let m = built_in("four-bar");
+    let pose = Pose::of_file(&m, StateId::FREE).unwrap();
+    let way = follow_range(&pose, 0, &[], Some([-0.3, 0.3]), 20);
+    assert!(way.start > 0);
+    assert_nine_digits(way.at[way.start], 0.0);
+    assert!(way.at.windows(2).all(|w| w[0] < w[1]));
+    assert!(way.at[0] < 0.0);
 }
 
 /// Two jaws 2 m apart go towards each other by 0.4 m each a step: between the second and the third they meet.

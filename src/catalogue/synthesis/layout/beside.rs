@@ -10,8 +10,8 @@ use crate::synthesis::stroke::judge::Judge;
 use crate::synthesis::structure::Structure;
 use chacha20::rand_core::Rng;
 
-/// Returns the layout and its figures with its pins moved by less than half a millimetre each, to thousandths, and by less the greater the number is. The
-/// result is the same for the same seed and number. Pins keep the rules of the structure: sliding pins stay on their line, and images stay
+/// Returns the layout with its pins moved by less than half a millimetre each, to thousandths, and its figures. A greater number gives smaller
+/// moves. The result is the same for the same seed and number. Pins keep the rules of the structure: sliding pins stay on their line, and images stay
 /// images.
 ///
 /// `None` if the new layout breaks the limits, loses the task that the old one fulfils, or loses its assignment of layers.

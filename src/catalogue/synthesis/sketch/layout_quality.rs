@@ -96,8 +96,7 @@ impl Bones {
                     penalty += 4.0 * beyond_limit(near - square.sqrt(), near);
                 }
                 // Pins level with each other, or right above each other, have an axis in common. This special place costs redesigns.
-                let aligned = apart[0].abs() < ALIGNED || apart[1].abs() < ALIGNED;
-                if aligned && i < self.joints.len() && !self.follows[i] && !self.follows[j] {
+                if i < self.joints.len() && !self.follows[i] && !self.follows[j] {
                     penalty += apart
                         .iter()
                         .map(|x| 0.5 * beyond_limit(ALIGNED - x.abs(), ALIGNED))

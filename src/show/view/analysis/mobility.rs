@@ -99,14 +99,9 @@ impl StructureSize {
     /// # Ok::<(), ozols::Error>(())
     /// ```
     pub fn of_state(mechanism: &Mechanism, state: StateId) -> StructureSize {
-        let mut links: Vec<_> = mechanism
-            .joints_in(state)
-            .flat_map(|j| mechanism.joints[j].links)
-            .collect();
-        links.sort_unstable();
-        links.dedup();
         let int = |x: usize| i64::try_from(x).unwrap_or(i64::MAX);
-        let (links, joints) = (int(links.len()), int(mechanism.joints_in(state).count()));
+        let links = int(mechanism.links_in(state).count());
+        let joints = int(mechanism.joints_in(state).count());
         let contours = joints + 1 - links;
         let dim = if matches!(mechanism.mode, Mode::Planar { .. }) {
             3

@@ -119,7 +119,7 @@ fn write_teeth(out: &mut Report, all: &[Coupled<'_>]) {
 }
 
 /// Adds the couplings as a table.
-pub(super) fn write_couplings(out: &mut Report, all: &[Coupled<'_>]) {
+pub(super) fn write_couplings(out: &mut Report, head: &str, all: &[Coupled<'_>]) {
     if all.is_empty() {
         return;
     }
@@ -133,7 +133,9 @@ pub(super) fn write_couplings(out: &mut Report, all: &[Coupled<'_>]) {
         });
         row_cells([&c.name(), &ends[0], &ends[1], &teeth])
     });
-    out.add_line("Couplings give the second link of each joint, along the freedom they tie\n");
+    out.add_line(format!(
+        "{head} give the second link of each joint, along the freedom they tie\n"
+    ));
     out.add_table(
         "coupling | at the first | at the second | at the teeth",
         rows,

@@ -54,7 +54,7 @@ impl Reactions<'_> {
         if !s.contacts.is_empty() {
             self.write_contacts(&mut out);
         }
-        write_couplings(&mut out, &self.couplings());
+        write_couplings(&mut out, "Couplings", &self.couplings());
         for r in &s.reactions {
             let Some((freedom, effort)) = r.effort else {
                 continue;
@@ -280,7 +280,8 @@ impl Reactions<'_> {
             ));
             self.write_joints(out, list);
             let coupled = s.elastic_couplings.as_deref().unwrap_or_default();
-            write_couplings(out, &state_couplings(self.of, self.state, coupled));
+            let coupled = state_couplings(self.of, self.state, coupled);
+            write_couplings(out, "Couplings, which are taken as rigid,", &coupled);
         } else if open > 0 && s.choice != Uniqueness::Pushing {
             out.add_line(
                 "State [workload.stiffness.default] linear and angular, and [[workload.misalignment]], to compute the actual reactions.",
