@@ -5,9 +5,10 @@ use crate::model::mechanism::{Joint, JointId, Mechanism, StateId};
 use crate::score::outcome::Outcome;
 use crate::score::request::unlisted::{framed_types, named_part, type_fits};
 use crate::score::request::{Check, Inserts, JointOptions, List, Request};
-use crate::score::run::run;
+use crate::score::run::answer_request;
 use crate::search::answer::single_changes::USUAL;
 use itertools::Itertools;
+use std::sync::Arc;
 
 /// Node budget of the search that tests whether they help.
 const NODES: usize = 20_000;
@@ -126,7 +127,14 @@ impl Outcome {
         };
         let mut unranked = Mechanism::clone(&self.search.mechanism);
         unranked.edit().ranking = None;
-        let found = run(unranked, &trial, &|| false, &mut |_| {}).ok()?;
+        let prepared = trial.prepare(unranked, &mut |_| {}).ok()?;
+        let (mut conditions, rounded) = trial.search_conditions(&prepared, &mut |_| {}).ok()?;
+        // How many there are is not asked.
+        conditions.estimate = None;
+        let mechanism = Arc::new(prepared.mechanism);
+        let never = &|| false;
+        let found = answer_request(mechanism, conditions, rounded, &trial, never, &mut |_| {});
+        let found = found.ok()?;
         let variants = found.variants().collect_vec();
         let changes = variants.iter().flat_map(|v| v.list_changes());
         let id = |j: JointId| self.search.mechanism.joints[j].id.clone();
