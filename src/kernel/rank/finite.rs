@@ -125,7 +125,7 @@ fn exact_mobility(
     pose: &Pose,
 ) -> Result<Finite, ExactError> {
     let instantaneous = closure.columns.len() - rank;
-    let expanded = Expanded::new(exact, mechanism, closure, pose, rank)?;
+    let expanded = Expanded::new(exact, mechanism, closure, rank)?;
     let (series, line) = (expanded.series.as_ref(), expanded.line);
     let isolated = |m: usize| series.and_then(|s| s.isolating_degree(m));
     let stopped = line.and_then(|l| l.stopped);

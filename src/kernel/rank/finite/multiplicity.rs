@@ -34,7 +34,6 @@ use crate::linalg::echelon::{Echelon, transpose};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism};
-use crate::motion::pose::Pose;
 use crate::rank::exact::modular;
 use crate::rank::finite::displacement_group::{group_dimension, spatial_twists};
 use crate::rank::finite::higher_order::{HigherOrder, Line, ORDER};
@@ -319,10 +318,9 @@ impl Expanded {
         exact: &ExactField,
         mechanism: &Mechanism,
         closure: &Closure<Residue>,
-        pose: &Pose,
         rank: usize,
     ) -> Result<Expanded, ExactError> {
-        let series = HigherOrder::new(exact, mechanism, closure, pose, rank)?;
+        let series = HigherOrder::new(exact, mechanism, closure, rank)?;
         let instantaneous = closure.columns.len() - rank;
         let bound = highest_order(exact, mechanism, closure, instantaneous)?;
         let bound = bound.filter(|&order| order <= HIGHEST);
@@ -372,8 +370,7 @@ pub(super) fn are_apart(
     }
     for (part, own, rank) in &each {
         let proven = prove_regular(exact, part, own, *rank)?.is_some()
-            || Expanded::new(exact, part, own, &Pose::of_file(part, own.state)?, *rank)?
-                .is_never_stopped();
+            || Expanded::new(exact, part, own, *rank)?.is_never_stopped();
         if !proven {
             return Ok(false);
         }
