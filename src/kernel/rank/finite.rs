@@ -15,7 +15,7 @@ use crate::closure::Closure;
 use crate::geom::Reals;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::modp::Residue;
-use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::rank::exact::field::field_of;
 use crate::rank::exact::modular;
@@ -81,9 +81,7 @@ pub(crate) fn finite_known(
     }
     let state = closure.state;
     let parts = independent_parts::independent_parts(closure);
-    // Joints in no contour move freely.
-    let inside = |j: JointId| parts.iter().any(|p| p.contains(&j));
-    let free = closure.columns.iter().filter(|c| !inside(c.joint)).count();
+    let free = independent_parts::count_outside(closure, &parts);
     let mut total = Finite::new(free, How::Rigid);
     for joints in &parts {
         let mut part = independent_parts::with_joints_only(mechanism, joints);
@@ -311,8 +309,7 @@ type Parts = (usize, Vec<(Mechanism, usize)>);
 fn numeric_parts(mechanism: &Mechanism, state: StateId) -> Option<Parts> {
     let closure = Closure::new(&Reals, mechanism, state).ok()?;
     let parts = independent_parts::independent_parts(&closure);
-    let inside = |j: JointId| parts.iter().any(|p| p.contains(&j));
-    let free = closure.columns.iter().filter(|c| !inside(c.joint)).count();
+    let free = independent_parts::count_outside(&closure, &parts);
     let each = parts.iter().map(|joints| {
         let part = independent_parts::with_joints_only(mechanism, joints);
         numeric_mobility(&part, state).map(|w| (part, w))

@@ -61,16 +61,15 @@ impl Map {
         let space = MotionSpace::new(exact, mode)?;
         let freedoms = from.joint_type.freedoms();
         let values = FrameValues::new(exact, from.frame)?;
-        let (mut images, mut own) = (Echelon::new(f), Echelon::new(f));
+        let mut images = Echelon::new(f);
         for (_, twist) in values.motions_in_space(exact, &space, freedoms) {
             match space.components_in_space(exact, &image(twist)) {
                 Some(t) => images.insert(&t),
                 None => return Ok(false),
             };
         }
-        for (_, t) in joint_twists(exact, &space, to.frame, to.joint_type)? {
-            own.insert(&t);
-        }
+        let own = joint_twists(exact, &space, to.frame, to.joint_type)?;
+        let own = Echelon::from_vectors(f, own.into_iter().map(|(_, t)| t));
         Ok(images.reduced_rows() == own.reduced_rows())
     }
 }

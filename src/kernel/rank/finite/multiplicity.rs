@@ -71,7 +71,7 @@ fn highest_order(
     }
     if let [alone] = &arcs[..] {
         // All equations, including those that cut further freedoms off, belong to one bundle.
-        let inside = alone.count_freedoms() == freedoms;
+        let inside = alone.iter().map(Vec::len).sum::<usize>() == freedoms;
         let class = inside.then(|| Class::unit_class().times_all(alone, freedoms));
         return Ok(class
             .flatten()
@@ -110,7 +110,7 @@ fn cut_into_arcs(closure: &Closure<Residue>, contour: &Contour) -> Arcs {
         (0..closure.columns.len()).filter(here).collect()
     };
     let (one, other) = contour.joints.split_at(contour.joints.len() / 2);
-    Arcs::new(of(one), of(other))
+    [of(one), of(other)]
 }
 
 /// Returns what each contour adds to the rank, in the given order.
@@ -162,27 +162,7 @@ const MOST: usize = 64;
 const TERMS: usize = 100_000;
 
 /// The two arcs of a contour, each a set of freedoms.
-#[derive(Debug, Clone)]
-struct Arcs {
-    one: Vec<usize>,
-    other: Vec<usize>,
-}
-
-impl Arcs {
-    fn new(one: Vec<usize>, other: Vec<usize>) -> Arcs {
-        Arcs { one, other }
-    }
-
-    /// Returns the number of freedoms in both arcs.
-    fn count_freedoms(&self) -> usize {
-        self.one.len() + self.other.len()
-    }
-
-    fn freedom_set(&self) -> u64 {
-        let all = self.one.iter().chain(&self.other);
-        all.fold(0, |set, &v| set | 1 << v)
-    }
-}
+type Arcs = [Vec<usize>; 2];
 
 /// A class: the multiplicity of each product of different h, by their sets.
 #[derive(Debug, Clone)]
@@ -223,8 +203,8 @@ impl Class {
         let mut other = self.clone();
         let mut all = self;
         for _ in 0..n {
-            other = other.times_sum(&arcs.other);
-            all = Class::collect_terms([all.times_sum(&arcs.one).0, other.0.clone()].concat());
+            other = other.times_sum(&arcs[1]);
+            all = Class::collect_terms([all.times_sum(&arcs[0]).0, other.0.clone()].concat());
             if all.0.len() > TERMS {
                 return None;
             }
@@ -239,7 +219,8 @@ impl Class {
         freedoms: usize,
         cut: usize,
     ) -> Class {
-        let open = later.fold(0, |set, arcs| set | arcs.freedom_set());
+        let open = later.flatten().flatten();
+        let open = open.fold(0, |set, &v| set | 1 << v);
         let gone = all_freedoms(freedoms) & !open;
         self.0
             .retain(|(set, _)| (gone & !set).count_ones() as usize <= cut);
@@ -386,12 +367,12 @@ mod tests {
     #[test]
     fn numbers_by_hand() {
         for (n, expected) in [(1, 1), (2, 4), (3, 36), (4, 576)] {
-            let arcs = Arcs::new((0..n).collect(), (n..2 * n).collect());
+            let arcs = [(0..n).collect(), (n..2 * n).collect()];
             let class = Class::unit_class().times_all(&arcs, 2 * n).unwrap();
             assert_eq!(class.intersection_number(2 * n, 0), Some(expected));
         }
         // A curve of four hinges cut by the sum of all t: (S² T + S T²)(S + T) = 2 S² T², and S² = T² = 2 of two h each.
-        let arcs = Arcs::new(vec![0, 1], vec![2, 3]);
+        let arcs = [vec![0, 1], vec![2, 3]];
         let class = Class::unit_class().times_all(&arcs, 3).unwrap();
         assert_eq!(class.intersection_number(4, 1), Some(8));
         let none = class.without_lost(std::iter::empty(), 4, 0);
