@@ -18,6 +18,7 @@ use crate::closure::Closure;
 use crate::closure::tree::spanning_forest;
 use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::rigid::split_twist;
 use crate::linalg::echelon::{Echelon, linear_combination, linear_relations, rank_of};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{LinkId, Mechanism, Mode};
@@ -289,10 +290,7 @@ impl Bonds<'_> {
             let [twist] = &part.span[..] else {
                 return None;
             };
-            let (w, v) = (
-                [twist[0], twist[1], twist[2]],
-                [twist[3], twist[4], twist[5]],
-            );
+            let (w, v) = split_twist(twist);
             let of = w.into_iter().find(|&x| x != 0)?;
             let hinge = part.is_group() && self.exact.dot(w, v) == 0;
             let scale = field.inv(of);

@@ -14,6 +14,7 @@ use crate::closure::contour::Contour;
 use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
 use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::rigid::{join_twist, split_twist};
 use crate::linalg::echelon::{Echelon, linear_combination, linear_relations};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::Freedom;
@@ -26,13 +27,12 @@ pub(in crate::rank) fn lie_bracket(
     a: &[Residue],
     b: &[Residue],
 ) -> Vec<Residue> {
-    let three = |t: &[Residue], at: usize| [t[at], t[at + 1], t[at + 2]];
-    let (wa, va, wb, vb) = (three(a, 0), three(a, 3), three(b, 0), three(b, 3));
+    let ((wa, va), (wb, vb)) = (split_twist(a), split_twist(b));
     let w = exact.cross(wa, wb);
     let (p, q) = (exact.cross(wa, vb), exact.cross(va, wb));
     let field = exact.field();
     let v = [0, 1, 2].map(|i| field.add(p[i], q[i]));
-    vec![w[0], w[1], w[2], v[0], v[1], v[2]]
+    join_twist(w, v).to_vec()
 }
 
 /// Returns true if the successive displacements of some independent twists are all those of a group.
@@ -273,7 +273,7 @@ pub(in crate::rank) fn group_of(
     let slides: Vec<[Residue; 3]> = linear_relations(field, &parts)
         .iter()
         .map(|factors| linear_combination(field, &basis, factors))
-        .map(|t| [t[3], t[4], t[5]])
+        .map(|t| split_twist(&t).1)
         .collect();
     let axis = turns
         .reduced_rows()
@@ -283,7 +283,10 @@ pub(in crate::rank) fn group_of(
     let across = slides.iter().all(|&v| exact.dot(v, axis) == 0);
     // Slides across the axis do not affect the slide coupled to a turn. An independent slide along the axis allows a
     // turn with any pitch.
-    let along = |t: &Vec<Residue>| exact.dot([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
+    let along = |t: &Vec<Residue>| {
+        let (w, v) = split_twist(t);
+        exact.dot(w, v)
+    };
     let screws = turns.rank() == 1 && across && basis.iter().any(|t| along(t) != 0);
     Ok(DisplacementGroup {
         dimension: basis.len(),
