@@ -34,7 +34,7 @@ use crate::linalg::echelon::{Echelon, transpose};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism};
-use crate::rank::exact::modular;
+use crate::rank::exact::modular::ExactState;
 use crate::rank::finite::displacement_group::{group_dimension, spatial_twists};
 use crate::rank::finite::higher_order::{HigherOrder, Line, ORDER};
 use crate::rank::finite::independent_parts::with_joints_only;
@@ -50,12 +50,8 @@ const ORDERS: usize = 6;
 ///
 /// # Complexity
 /// A few eliminations of J, and products of classes. A product has as many terms as sets of freedoms are open at a time.
-fn highest_order(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    closure: &Closure<Residue>,
-    instantaneous: usize,
-) -> Result<Option<usize>, ExactError> {
+fn highest_order(at: &ExactState<'_>) -> Result<Option<usize>, ExactError> {
+    let (exact, closure) = (at.exact, &*at.closure);
     let freedoms = closure.columns.len();
     let screws = closure.columns.iter().any(|c| c.freedom == Freedom::Screw);
     if screws || !closure.couplings.is_empty() || freedoms > MOST {
@@ -66,7 +62,7 @@ fn highest_order(
         .iter()
         .map(|c| cut_into_arcs(closure, c))
         .collect();
-    if let Some(order) = bound_of_rods(exact, mechanism, closure, instantaneous)? {
+    if let Some(order) = bound_of_rods(at)? {
         return Ok(Some(order));
     }
     if let [alone] = &arcs[..] {
@@ -79,7 +75,7 @@ fn highest_order(
     }
     let mut dimensions = Vec::new();
     for contour in &closure.contours {
-        dimensions.push(group_dimension(exact, mechanism, contour)?);
+        dimensions.push(group_dimension(exact, at.mechanism, contour)?);
     }
     let rows = transpose(&closure.dense_columns(exact));
     let all = arcs.len();
@@ -93,7 +89,7 @@ fn highest_order(
             &order,
             &added,
             freedoms,
-            instantaneous - 1,
+            at.mobility() - 1,
         );
         least = [least, found].into_iter().flatten().min();
     }
@@ -242,23 +238,19 @@ fn all_freedoms(freedoms: usize) -> u64 {
 }
 
 /// Returns the highest order that can stop a platform on rods, or `None` for other mechanisms.
-fn bound_of_rods(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    closure: &Closure<Residue>,
-    instantaneous: usize,
-) -> Result<Option<usize>, ExactError> {
+fn bound_of_rods(at: &ExactState<'_>) -> Result<Option<usize>, ExactError> {
+    let (mechanism, state) = (at.mechanism, at.closure.state);
     let (mut rods, mut bodies) = (0, 0);
     for link in mechanism.link_ids() {
-        let joints: Vec<JointId> = mechanism.joints_at(link, closure.state).collect();
+        let joints: Vec<JointId> = mechanism.joints_at(link, state).collect();
         match joints[..] {
             [] => {}
-            [a, b] if is_rod(exact, mechanism, [a, b])? => rods += 1,
+            [a, b] if is_rod(at.exact, mechanism, [a, b])? => rods += 1,
             _ => bodies += 1,
         }
     }
-    let platform = bodies == 2 && mechanism.joints_in(closure.state).count() == 2 * rods;
-    let power = u32::try_from(instantaneous).ok();
+    let platform = bodies == 2 && mechanism.joints_in(state).count() == 2 * rods;
+    let power = u32::try_from(at.mobility()).ok();
     let power = power.and_then(|n| 8u32.checked_sub(n)).filter(|_| platform);
     Ok(power.map(|p| 1 << p))
 }
@@ -295,16 +287,9 @@ pub(super) struct Expanded {
 }
 
 impl Expanded {
-    pub(super) fn new(
-        exact: &ExactField,
-        mechanism: &Mechanism,
-        closure: &Closure<Residue>,
-        rank: usize,
-    ) -> Result<Expanded, ExactError> {
-        let series = HigherOrder::new(exact, mechanism, closure, rank)?;
-        let instantaneous = closure.columns.len() - rank;
-        let bound = highest_order(exact, mechanism, closure, instantaneous)?;
-        let bound = bound.filter(|&order| order <= HIGHEST);
+    pub(super) fn new(at: &ExactState<'_>) -> Result<Expanded, ExactError> {
+        let series = HigherOrder::new(at.exact, at.mechanism, &at.closure, at.rank)?;
+        let bound = highest_order(at)?.filter(|&order| order <= HIGHEST);
         let order = bound.unwrap_or(0).max(ORDER);
         let line = series.as_ref().map(|s| s.random_line(order));
         Ok(Expanded {
@@ -329,30 +314,24 @@ impl Expanded {
 ///
 /// # Complexity
 /// One proof per contour, if their ranks add up to that of J.
-pub(super) fn are_apart(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    closure: &Closure<Residue>,
-    rank: usize,
-) -> Result<bool, ExactError> {
+pub(super) fn are_apart(at: &ExactState<'_>) -> Result<bool, ExactError> {
+    let closure = &at.closure;
     if closure.contours.len() < 2 || !closure.couplings.is_empty() {
         return Ok(false);
     }
-    let mut each = Vec::new();
-    for contour in &closure.contours {
+    let part = |contour: &Contour| {
         let joints: Vec<_> = contour.joints.iter().map(|&(j, _)| j).collect();
-        let part = with_joints_only(mechanism, &joints);
-        let own = Closure::new(exact, &part, closure.state)?;
-        let rank = modular::rank_modulo(exact, &own);
-        each.push((part, own, rank));
-    }
-    if each.iter().map(|(_, _, rank)| rank).sum::<usize>() != rank {
+        with_joints_only(at.mechanism, &joints)
+    };
+    let parts: Vec<Mechanism> = closure.contours.iter().map(part).collect();
+    let each = parts.iter();
+    let each = each.map(|part| ExactState::new(at.exact, part, closure.state));
+    let each: Vec<ExactState<'_>> = each.collect::<Result<_, _>>()?;
+    if each.iter().map(|own| own.rank).sum::<usize>() != at.rank {
         return Ok(false);
     }
-    for (part, own, rank) in &each {
-        let proven = prove_regular(exact, part, own, *rank)?.is_some()
-            || Expanded::new(exact, part, own, *rank)?.is_never_stopped();
-        if !proven {
+    for own in &each {
+        if prove_regular(own)?.is_none() && !Expanded::new(own)?.is_never_stopped() {
             return Ok(false);
         }
     }
