@@ -9,7 +9,7 @@ use crate::geom::Reals;
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
 use crate::model::joint_type::{Coupling, Freedom};
-use crate::model::mechanism::{Frame, JointId, Parts};
+use crate::model::mechanism::{Frame, JointId, Mechanism, Parts, StateId};
 
 /// Relative difference of squared lengths below which two axes, written in decimals, have the same length.
 const UNIT: f64 = 1e-12;
@@ -67,6 +67,15 @@ pub fn coupling_coefficient(mechanism: &Parts, coupling: &Coupling) -> Expr {
     let frame = |j: JointId| &mechanism.joints[j].frame;
     let length = length_ratio((frame(a.joint), a.freedom), (frame(b.joint), b.freedom));
     -(&coupling.ratio * &length)
+}
+
+/// Returns the entries of all couplings of a state, for the field in which they need values.
+#[must_use]
+pub fn coupling_coefficients(mechanism: &Mechanism, state: StateId) -> Vec<Expr> {
+    mechanism
+        .couplings_in(state)
+        .map(|c| coupling_coefficient(mechanism, c))
+        .collect()
 }
 
 /// Returns true if a freedom on its own stays in the space of the mechanism's mode.

@@ -1,7 +1,7 @@
 //! The prime fields in which the coordinates of a mechanism have values.
 
 use crate::closure::Closure;
-use crate::closure::coupling::{coupling_coefficient, length_ratio};
+use crate::closure::coupling::{coupling_coefficient, coupling_coefficients, length_ratio};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::expr::Expr;
 use crate::linalg::modp::Residue;
@@ -26,9 +26,7 @@ fn all_expressions<'m>(
 pub(in crate::rank) fn expressions_in(mechanism: &Mechanism, state: StateId) -> Vec<Expr> {
     let joints = mechanism.joints_in(state);
     let frames = joints.map(|j| &mechanism.joints[j].frame);
-    let couplings = mechanism.couplings_in(state);
-    let couplings = couplings.map(|c| coupling_coefficient(mechanism, c));
-    all_expressions(mechanism, frames, couplings.collect())
+    all_expressions(mechanism, frames, coupling_coefficients(mechanism, state))
 }
 
 /// Returns the exact field of the joints present in a state, in the `nth` suitable prime.
