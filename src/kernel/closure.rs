@@ -187,6 +187,21 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
         out
     }
 
+    /// Returns J with other twists of its columns, of `dim` components each.
+    #[must_use]
+    pub(crate) fn with_twists(&self, dim: usize, twist: impl Fn(usize) -> Vec<N>) -> Self {
+        let columns = self.columns.iter().enumerate();
+        let columns = columns.map(|(c, column)| Column {
+            twist: twist(c),
+            ..column.clone()
+        });
+        Closure {
+            dim,
+            columns: columns.collect(),
+            ..self.clone()
+        }
+    }
+
     /// Returns the number of rows, 6k + c for c couplings (3k + c in a plane).
     #[must_use]
     pub fn rows(&self) -> usize {

@@ -126,11 +126,9 @@ pub fn contour_basis(mechanism: &Mechanism, state: StateId) -> Vec<Contour> {
         &[StateId::FREE, state]
     };
     for &st in states {
-        let all: Vec<JointId> = mechanism.joints_in(state).collect();
-        let present: Vec<JointId> = mechanism
-            .joints_in(st)
-            .filter(|j| all.binary_search(j).is_ok())
-            .collect();
+        let both = mechanism.joints_in(st);
+        let both = both.filter(|&j| mechanism.joints[j].is_in(state));
+        let present: Vec<JointId> = both.collect();
         let named = mechanism
             .contours
             .iter()
@@ -141,12 +139,13 @@ pub fn contour_basis(mechanism: &Mechanism, state: StateId) -> Vec<Contour> {
                 contours.push(walk);
             }
         }
-        let rank = present.len() + count_components(mechanism, &present)
-            - count_links(mechanism, &present);
         let ends = present.iter().map(|&j| mechanism.joints[j].links);
         let ends: Vec<[usize; 2]> = ends.map(|links| links.map(LinkId::index)).collect();
-        for cycle in shortest_cycles(mechanism.links.len(), &ends) {
-            if contours.len() == rank {
+        let links = mechanism.links.len();
+        let (_, tree) = spanning_forest(links, ends.iter().copied(), |_| false, 0..links);
+        for cycle in shortest_cycles(links, &ends) {
+            // As many are independent as joints lie outside a tree.
+            if contours.len() == present.len() - tree.len() {
                 break;
             }
             let cycle: Vec<JointId> = cycle.into_iter().map(|e| present[e]).collect();
@@ -175,26 +174,6 @@ pub fn shortest_cycle_basis(nodes: usize, edges: &[[usize; 2]]) -> Vec<Vec<usize
     let mut basis = Basis::default();
     let mut adds = |c: &Vec<usize>| basis.insert_cycle(c.iter().copied(), edges.len());
     shortest_cycles(nodes, edges).filter(|c| adds(c)).collect()
-}
-
-fn count_links(mechanism: &Mechanism, joints: &[JointId]) -> usize {
-    joints
-        .iter()
-        .flat_map(|&j| mechanism.joints[j].links)
-        .unique()
-        .count()
-}
-
-fn count_components(mechanism: &Mechanism, joints: &[JointId]) -> usize {
-    let mut sets = petgraph::unionfind::UnionFind::<usize>::new(mechanism.links.len());
-    let merged = joints
-        .iter()
-        .filter(|&&j| {
-            let [a, b] = mechanism.joints[j].links;
-            sets.union(a.index(), b.index())
-        })
-        .count();
-    count_links(mechanism, joints) - merged
 }
 
 /// Returns the edges of each biconnected block of a graph. Edges that are in no cycle are omitted.

@@ -7,12 +7,11 @@
 use crate::geom::Scalars;
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
+pub use crate::geom::rigid::Twist;
+use crate::geom::rigid::{join_twist, split_twist};
 use crate::geom::vector::length;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, Mode};
-
-/// A twist (ω; v) about the global origin.
-pub type Twist<N> = [N; 6];
 
 /// The space of twists: all six components, or the three of a plane.
 #[derive(Debug, Clone)]
@@ -66,7 +65,7 @@ impl<N: Clone + PartialEq + Default> MotionSpace<N> {
         t: &Twist<N>,
     ) -> Option<Vec<N>> {
         if let MotionSpace::Planar { axes: [n, ..] } = self {
-            let [w, v] = split_twist(t);
+            let (w, v) = split_twist(t);
             let dot = |a: &[N; 3], b: &[N; 3]| s.dot(a.clone(), b.clone());
             // Products of decimals are rounded. This must not move a turn about the normal out of the plane.
             let (nn, ww) = (dot(n, n), dot(&w, &w));
@@ -87,7 +86,7 @@ impl<N: Clone + PartialEq + Default> MotionSpace<N> {
         match self {
             MotionSpace::Spatial => t.to_vec(),
             MotionSpace::Planar { axes: [n, e1, e2] } => {
-                let [w, v] = split_twist(t);
+                let (w, v) = split_twist(t);
                 let dot = |a: &[N; 3], b: &[N; 3]| s.dot(a.clone(), b.clone());
                 vec![dot(&w, n), dot(&v, e1), dot(&v, e2)]
             }
@@ -95,17 +94,11 @@ impl<N: Clone + PartialEq + Default> MotionSpace<N> {
     }
 }
 
-/// Returns the angular velocity and the velocity of a twist.
-fn split_twist<N: Clone>(t: &Twist<N>) -> [[N; 3]; 2] {
-    let [a, b, c, d, e, f] = t.clone();
-    [[a, b, c], [d, e, f]]
-}
-
 /// Returns a twist about or along an axis of unit length, because rounding must not let axes grow or shrink over many
 /// steps.
 #[must_use]
 pub fn unit_twist(mut t: Twist<f64>) -> Twist<f64> {
-    let [w, v] = split_twist(&t);
+    let (w, v) = split_twist(&t);
     let size = match length(w) {
         0.0 => length(v),
         turn => turn,
@@ -191,11 +184,10 @@ impl<N: Clone + PartialEq + Default> FrameValues<N> {
             }
         }
         let at_origin = |t: Twist<N>| {
-            let [w, v] = split_twist(&t);
+            let (w, v) = split_twist(&t);
             let arm = s.cross(self.point.clone(), w.clone());
-            let [d, e, f] = [0, 1, 2].map(|i| s.add(v[i].clone(), arm[i].clone()));
-            let [a, b, c] = w;
-            [a, b, c, d, e, f]
+            let v = [0, 1, 2].map(|i| s.add(v[i].clone(), arm[i].clone()));
+            join_twist(w, v)
         };
         rest.into_iter()
             .map(|(f, m)| (f, at_origin(m.twist)))
@@ -230,12 +222,11 @@ impl<N: Clone + PartialEq + Default> FrameValues<N> {
     /// Returns the twist of one freedom.
     pub fn twist_of<S: Scalars<Number = N>>(&self, s: &S, freedom: Freedom) -> Twist<N> {
         let zero = || s.sub(self.point[0].clone(), self.point[0].clone());
-        let join = |[a, b, c]: [N; 3], [d, e, f]: [N; 3]| [a, b, c, d, e, f];
         let rotation = |u: &[N; 3]| {
             let v = s.cross(self.point.clone(), u.clone());
-            join(u.clone(), v)
+            join_twist(u.clone(), v)
         };
-        let translation = |u: &[N; 3]| join([zero(), zero(), zero()], u.clone());
+        let translation = |u: &[N; 3]| join_twist([zero(), zero(), zero()], u.clone());
         let [x, y, z] = &self.axes;
         match freedom {
             Freedom::Rx => rotation(x),
@@ -247,7 +238,7 @@ impl<N: Clone + PartialEq + Default> FrameValues<N> {
             Freedom::Screw => {
                 let v = s.cross(self.point.clone(), z.clone());
                 let t = s.scaled_sum(self.pitch.clone(), z.clone(), v);
-                join(z.clone(), t)
+                join_twist(z.clone(), t)
             }
         }
     }
@@ -265,7 +256,7 @@ struct OutOfPlane<N> {
 impl<N: Clone + PartialEq + Default> OutOfPlane<N> {
     fn new<S: Scalars<Number = N>>(s: &S, [n, e1, e2]: &[[N; 3]; 3], twist: Twist<N>) -> Self {
         let dot = |a: &[N; 3], b: &[N; 3]| s.dot(a.clone(), b.clone());
-        let [w, v] = split_twist(&twist);
+        let (w, v) = split_twist(&twist);
         let of = |a: &[N; 3], b: &[N; 3]| (dot(a, b), s.mul(dot(a, a), dot(b, b)));
         let all = [of(&w, e1), of(&w, e2), of(&v, n)];
         OutOfPlane {

@@ -3,12 +3,19 @@
 use crate::geom::vector::{Vector, X, Y, Z, across, add, cross, dot, length, scale};
 
 /// A twist (ω; v): angular velocity, then the velocity of the point at the origin.
-pub type Twist = [f64; 6];
+pub type Twist<N = f64> = [N; 6];
 
 /// Returns angular velocity and velocity of a twist, or moment and force of a wrench.
 #[must_use]
-pub fn split_twist(t: &Twist) -> (Vector, Vector) {
-    ([t[0], t[1], t[2]], [t[3], t[4], t[5]])
+pub fn split_twist<N: Clone>(t: &[N]) -> ([N; 3], [N; 3]) {
+    let three = |from: usize| std::array::from_fn(|i| t[from + i].clone());
+    (three(0), three(3))
+}
+
+/// Returns the twist of an angular velocity and a velocity.
+#[must_use]
+pub fn join_twist<N>([a, b, c]: [N; 3], [d, e, f]: [N; 3]) -> Twist<N> {
+    [a, b, c, d, e, f]
 }
 
 /// A rotation followed by a translation.
@@ -219,7 +226,7 @@ impl RigidMotion {
         let (w, v) = split_twist(t);
         let w = self.map_direction(w);
         let (v, m) = (self.map_direction(v), cross(self.translation, w));
-        [w[0], w[1], w[2], v[0] + m[0], v[1] + m[1], v[2] + m[2]]
+        join_twist(w, add(v, m))
     }
 
     /// Returns the rotation axis times the sine of the angle.

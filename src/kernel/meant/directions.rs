@@ -37,9 +37,10 @@ pub(super) fn of_rays(rays: &[Written], points: &[Vector], errors: &[f64]) -> Di
     // The most accurate come first, so that others are compared with them.
     order.sort_by(|&a, &b| rays[a].angular_error().total_cmp(&rays[b].angular_error()));
     let (mut all, mut of_ray) = (Vec::<Direction>::new(), vec![(0, 1.0); rays.len()]);
-    let mut sums: Vec<(Vector, f64)> = Vec::new();
+    let mut sums: Vec<Vector> = Vec::new();
     for i in order {
         let (v, error) = (rays[i].unit_vector(), rays[i].angular_error());
+        let weight = if error > 0.0 { error.powi(-2) } else { 0.0 };
         let near = |d: &Direction| length(cross(d.unit, v)) <= 1.05 * (d.error + error);
         let nearest = |a: &usize, b: &usize| {
             let off = |k: &usize| length(cross(all[*k].unit, v));
@@ -50,12 +51,7 @@ pub(super) fn of_rays(rays: &[Written], points: &[Vector], errors: &[f64]) -> Di
             let sign = dot(all[k].unit, v).signum();
             of_ray[i] = (k, sign);
             all[k].rays += 1;
-            if error > 0.0 {
-                let weight = error.powi(-2);
-                let (sum, of) = &mut sums[k];
-                *sum = add_scaled(*sum, sign * weight, v);
-                *of += weight;
-            }
+            sums[k] = add_scaled(sums[k], sign * weight, v);
         } else {
             of_ray[i] = (all.len(), 1.0);
             all.push(Direction {
@@ -65,25 +61,30 @@ pub(super) fn of_rays(rays: &[Written], points: &[Vector], errors: &[f64]) -> Di
                 exact: rays[i].is_exact().then_some(i),
                 tilts: square_to(v).map(|e| (e, error)),
             });
-            let weight = if error > 0.0 { error.powi(-2) } else { 0.0 };
-            sums.push((scale(v, weight), weight));
+            sums.push(scale(v, weight));
         }
     }
-    for (k, (d, (sum, _))) in all.iter_mut().zip(sums).enumerate() {
-        if d.exact.is_some() {
-            continue;
+    let allowed = digits_allow(rays, &of_ray);
+    for (k, (d, sum)) in all.iter_mut().zip(sums).enumerate() {
+        if d.exact.is_none() {
+            d.unit = unit(sum);
+            refine_direction(d, &pairs, |v| allowed(k, v));
         }
-        let own: Vec<&Written> = rays
-            .iter()
-            .zip(&of_ray)
-            .filter(|r| r.1.0 == k)
-            .map(|r| r.0)
-            .collect();
-        let allowed = |v: Vector| own.iter().all(|r| r.move_to(v, 0.0) <= WITHIN);
-        let Refined { unit, error, tilts } = refine_direction(unit(sum), d.error, &pairs, allowed);
-        (d.unit, d.error, d.tilts) = (unit, error, tilts);
     }
     Directions { all, of_ray }
+}
+
+/// Returns a test whether the digits of the rays of a direction allow another direction. `of_ray` has the direction of
+/// each ray.
+pub(super) fn digits_allow<'a>(
+    rays: &'a [Written],
+    of_ray: &[(usize, f64)],
+) -> impl Fn(usize, Vector) -> bool + use<'a> {
+    let of_ray = of_ray.to_vec();
+    move |k, v| {
+        let mut of_it = rays.iter().zip(&of_ray).filter(|r| r.1.0 == k);
+        of_it.all(|r| r.0.move_to(v, 0.0) <= WITHIN)
+    }
 }
 
 impl Direction {
@@ -143,16 +144,6 @@ impl TurnEstimate {
             (turned(-s, c), self.errors[1]),
         ]
     }
-}
-
-/// A refined direction.
-#[derive(Debug, Clone, Copy)]
-struct Refined {
-    unit: Vector,
-    /// Its remaining error `[rad]`.
-    error: f64,
-    /// Two axes of possible turns, perpendicular to it and to each other, with the error of each `[rad]`.
-    tilts: [(Vector, f64); 2],
 }
 
 /// Returns two unit vectors perpendicular to a third and to each other.
@@ -278,32 +269,24 @@ impl Evidence {
     }
 }
 
-/// Returns the allowed direction within the error that most pairs of points agree with. If none is better, returns one
-/// of the file's own axes.
+/// Turns a direction to the allowed one within its error that most pairs of points agree with, or to one of the file's
+/// own axes if none is better.
 ///
 /// # Complexity
 /// O(p²) hypotheses of at most 48² pairs, each compared with O(p²) pairs of p points.
-fn refine_direction(
-    v: Vector,
-    error: f64,
-    pairs: &[PointPair],
-    allowed: impl Fn(Vector) -> bool,
-) -> Refined {
+fn refine_direction(d: &mut Direction, pairs: &[PointPair], allowed: impl Fn(Vector) -> bool) {
+    let (v, error) = (d.unit, d.error);
     let across = square_to(v);
-    let untold = across.map(|e| (e, error));
+    d.tilts = across.map(|e| (e, error));
     if error == 0.0 {
-        return Refined {
-            unit: v,
-            error,
-            tilts: untold,
-        };
+        return;
     }
     let found = gather_evidence(v, error, across, pairs);
     let turned = |t: &[f64; 2]| unit(add_scaled(add_scaled(v, t[0], across[0]), t[1], across[1]));
     let within = |t: &[f64; 2]| t[0].hypot(t[1]) <= 1.1 * error && allowed(turned(t));
     let axes = [X, Y, Z].map(|e| if dot(e, v) < 0.0 { e.map(|x| -x) } else { e });
-    let own = axes.into_iter().find(|e| length(cross(*e, v)) <= error);
-    let own = own.map(|e| across.map(|a| dot(a, e)));
+    let axis = axes.into_iter().find(|e| length(cross(*e, v)) <= error);
+    let own = axis.map(|e| across.map(|a| dot(a, e)));
     let mut best = ([0.0; 2], 0);
     for turn in own
         .into_iter()
@@ -315,16 +298,13 @@ fn refine_direction(
             best = (turn, support);
         }
     }
-    if let Some(turn) = own
+    if let (Some(axis), Some(turn)) = (axis, own)
         && found.count_support(turn) == best.1
     {
-        let unit = axes.into_iter().find(|e| length(cross(*e, v)) <= error);
         // An axis of the file stays unchanged, even if other directions are near.
-        return Refined {
-            unit: unit.unwrap_or(v),
-            error: 0.0,
-            tilts: across.map(|e| (e, 0.0)),
-        };
+        (d.unit, d.error) = (axis, 0.0);
+        d.tilts = across.map(|e| (e, 0.0));
+        return;
     }
     let (mut turn, mut left) = (best.0, None);
     for _ in 0..4 {
@@ -336,9 +316,8 @@ fn refine_direction(
             left = Some(fit);
         }
     }
-    Refined {
-        unit: turned(&turn),
-        error: left.as_ref().map_or(error, |f| f.errors[1]),
-        tilts: left.map_or(untold, |f| f.tilt_axes(across)),
+    d.unit = turned(&turn);
+    if let Some(fit) = left {
+        (d.error, d.tilts) = (fit.errors[1], fit.tilt_axes(across));
     }
 }

@@ -16,17 +16,8 @@ pub(super) struct Exact {
 }
 
 impl Exact {
-    /// Creates the direction of a frame axis.
-    pub(super) fn of_axis(exact: Rational3) -> Exact {
-        Exact::new(exact, 0.0)
-    }
-
-    /// Creates a direction near another.
-    pub(super) fn exact_near(exact: Rational3, other: &Exact) -> Exact {
-        Exact::new(exact, other.error)
-    }
-
-    fn new(exact: Rational3, error: f64) -> Exact {
+    /// Creates a direction with its error `[rad]`.
+    pub(super) fn new(exact: Rational3, error: f64) -> Exact {
         let unit = unit(to_f64(&exact));
         Exact { exact, unit, error }
     }

@@ -34,12 +34,7 @@ pub struct Meant {
 }
 
 /// Indices of a frame's point, axis and reference in the scene, if present.
-#[derive(Debug, Clone, Copy, Default)]
-struct Slots {
-    point: Option<usize>,
-    axis: Option<usize>,
-    reference: Option<usize>,
-}
+type Slots = [Option<usize>; 3];
 
 /// A scene under construction.
 #[derive(Default)]
@@ -62,67 +57,43 @@ impl Gathered {
         self.rays.len() - 1
     }
 
-    /// Adds the parts of a frame that differ from the joint's own frame, if given with its slots.
+    /// Adds the used parts of a frame that differ from the joint's own frame, if given with its slots.
     fn add_frame(
         &mut self,
         f: &Frame,
         half: &FrameUncertainty,
         of: JointId,
-        uses: Uses,
+        used: [bool; 3],
         own: Option<(&Frame, Slots)>,
     ) -> Slots {
-        let kept = |part: fn(&Frame) -> &[Expr; 3], slot: fn(Slots) -> Option<usize>| {
-            own.filter(|(own, _)| are_same(part(f), part(own)))
-                .map(|(_, slots)| slot(slots))
-        };
-        // Exact references are mostly the file's default axes, which say nothing about the scene.
-        let refers = uses.reference && half.reference != [0.0; 3];
-        Slots {
-            point: kept(|f| &f.point, |s| s.point)
-                .unwrap_or_else(|| Some(self.add_point(&f.point, half.point, of))),
-            axis: kept(|f| &f.axis, |s| s.axis).unwrap_or_else(|| {
-                uses.axis
-                    .then(|| self.add_ray(&f.axis, half.axis, Some(of)))
-            }),
-            reference: kept(|f| &f.reference, |s| s.reference).unwrap_or_else(|| {
-                refers.then(|| self.add_ray(&f.reference, half.reference, Some(of)))
-            }),
-        }
+        [0, 1, 2].map(|k| {
+            let (v, half) = (f.vectors()[k], half.vectors()[k]);
+            match own {
+                Some((own, slots)) if are_same(v, own.vectors()[k]) => slots[k],
+                _ if !used[k] => None,
+                _ if k == 0 => Some(self.add_point(v, half, of)),
+                // Exact references are mostly the file's default axes, which say nothing about the scene.
+                _ if k == 2 && half == [0.0; 3] => None,
+                _ => Some(self.add_ray(v, half, Some(of))),
+            }
+        })
     }
 
     /// Adds the frame of a joint, with the directions used by it and by the options along its axis.
     fn add_joint(&mut self, joint: &Joint, half: &FrameUncertainty, j: JointId) -> Slots {
-        let uses = joint
-            .offered_options()
-            .filter(|o| are_same(&o.frame.axis, &joint.frame.axis))
-            .fold(Uses::by_type(&joint.joint_type), |u, o| {
-                u.union_with(Uses::by_type(&o.joint_type))
-            });
-        self.add_frame(&joint.frame, half, j, uses, None)
+        let along = joint.offered_options();
+        let along = along.filter(|o| are_same(&o.frame.axis, &joint.frame.axis));
+        let used = along.fold(parts_used(&joint.joint_type), |used, o| {
+            let also = parts_used(&o.joint_type);
+            [0, 1, 2].map(|k| used[k] || also[k])
+        });
+        self.add_frame(&joint.frame, half, j, used, None)
     }
 }
 
-/// The directions of a frame that matter to a joint type.
-#[derive(Debug, Clone, Copy, Default)]
-struct Uses {
-    axis: bool,
-    reference: bool,
-}
-
-impl Uses {
-    fn by_type(joint_type: &JointType) -> Uses {
-        Uses {
-            axis: joint_type.is_directed(),
-            reference: joint_type.has_second_axis(),
-        }
-    }
-
-    fn union_with(self, other: Uses) -> Uses {
-        Uses {
-            axis: self.axis || other.axis,
-            reference: self.reference || other.reference,
-        }
-    }
+/// Returns whether the point, the axis and the reference of a frame matter to a joint type.
+fn parts_used(joint_type: &JointType) -> [bool; 3] {
+    [true, joint_type.is_directed(), joint_type.has_second_axis()]
 }
 
 fn as_written(v: &[Expr; 3], half: [f64; 3]) -> Written {
@@ -169,8 +140,8 @@ pub fn recover_mechanism(mechanism: &Mechanism) -> Option<Meant> {
         own.push(slots);
         let halves = &half.option_frames[j.index()];
         let of_option = |(o, half): (&JointOption, &FrameUncertainty)| {
-            let (frame, uses) = (&joint.frame, Uses::by_type(&o.joint_type));
-            all.add_frame(&o.frame, half, j, uses, Some((frame, slots)))
+            let used = parts_used(&o.joint_type);
+            all.add_frame(&o.frame, half, j, used, Some((&joint.frame, slots)))
         };
         offered.push(joint.offered_options().zip(halves).map(of_option).collect());
     }
@@ -237,11 +208,9 @@ fn stated_symmetry(
         }
         let pairs = offered[a].iter().zip(&offered[b]);
         for (s, t) in std::iter::once((&own[a], &own[b])).chain(pairs) {
-            out.points
-                .extend(s.point.zip(t.point).map(<[usize; 2]>::from));
-            let rays = [(s.axis, t.axis), (s.reference, t.reference)];
-            let rays = rays.into_iter().filter_map(|(x, y)| x.zip(y));
-            out.rays.extend(rays.map(<[usize; 2]>::from));
+            let pair = |k: usize| Some([s[k]?, t[k]?]);
+            out.points.extend(pair(0));
+            out.rays.extend([1, 2].into_iter().filter_map(pair));
         }
     }
     out.points.sort_unstable();
@@ -261,13 +230,10 @@ impl Places {
     fn apply_scene(&self, mechanism: &Mechanism, scene: &MeantScene) -> Mechanism {
         let mut out = mechanism.clone();
         let put = |f: &mut Frame, s: &Slots| {
-            for (v, x) in [
-                (&mut f.point, s.point.map(|k| &scene.points[k])),
-                (&mut f.axis, s.axis.map(|k| &scene.rays[k])),
-                (&mut f.reference, s.reference.map(|k| &scene.rays[k])),
-            ] {
-                match x {
-                    Some(x) => write(v, x),
+            let of = [&scene.points, &scene.rays, &scene.rays];
+            for ((v, slot), of) in f.vectors_mut().into_iter().zip(s).zip(of) {
+                match slot {
+                    Some(k) => write(v, &of[*k]),
                     None => make_exact(v),
                 }
             }

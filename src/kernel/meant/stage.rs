@@ -1,7 +1,7 @@
 //! A scene between its two frames: the data before points are moved, and the resulting exact scene.
 
 use super::MeantScene;
-use super::directions::{Directions, WITHIN, of_rays};
+use super::directions::{Directions, digits_allow, of_rays};
 use super::exact_directions::{Exact, make_exact};
 use super::frame::SceneFrame;
 use super::number::{self, Rational3, nearest_decimal, to_f64};
@@ -65,12 +65,10 @@ impl<'a> Stage<'a> {
         let mut exact = make_exact(&of.all, |v| frame.scene_vector(v), exactly, digits);
         if let (Some(symmetry), Some(own)) = (&written.symmetry, symmetric) {
             let n = exact[own].exact.clone();
+            let allowed = digits_allow(&written.rays, &of.of_ray);
             for (a, b) in symmetry.image_pairs(&of) {
-                let image =
-                    Exact::exact_near(symmetry.image_exactly(&n, &exact[a].exact), &exact[b]);
-                if of.all[b].exact.is_none()
-                    && digits_allow(written, &of)(b, frame.file_vector(image.unit))
-                {
+                let image = Exact::new(symmetry.image_exactly(&n, &exact[a].exact), exact[b].error);
+                if of.all[b].exact.is_none() && allowed(b, frame.file_vector(image.unit)) {
                     exact[b] = image;
                 }
             }
@@ -100,7 +98,7 @@ impl<'a> Stage<'a> {
 
     /// Returns the exact directions of the scene. They include the file's own axes if its frame is the scene's.
     pub(super) fn scene_directions(&self) -> Vec<Exact> {
-        let own = number::frame_axes().into_iter().map(Exact::of_axis);
+        let own = number::frame_axes().into_iter().map(|e| Exact::new(e, 0.0));
         let own = own.filter(|_| self.frame.rotation.is_none());
         self.exact.iter().cloned().chain(own).collect()
     }
@@ -214,18 +212,6 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// Returns a test whether the digits of the rays of a direction allow another direction.
-fn digits_allow<'a>(
-    written: &'a WrittenScene,
-    of: &Directions,
-) -> impl Fn(usize, Vector) -> bool + use<'a> {
-    let of_ray = of.of_ray.clone();
-    move |k, v| {
-        let mut of_it = written.rays.iter().zip(&of_ray).filter(|r| r.1.0 == k);
-        of_it.all(|r| r.0.move_to(v, 0.0) <= WITHIN)
-    }
-}
-
 /// Returns the directions of a scene, with perpendicular and coplanar ones adjusted together, and the index of the
 /// direction of the stated symmetry.
 fn adjusted_directions(
@@ -240,7 +226,7 @@ fn adjusted_directions(
     if SceneFrame::is_the_files(&of.all) {
         of.add_axes();
     }
-    let fits = digits_allow(written, &of);
+    let fits = digits_allow(&written.rays, &of.of_ray);
     adjust_together(&mut of.all, fits);
     of.all.truncate(own);
     (of, symmetric)

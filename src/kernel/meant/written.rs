@@ -1,6 +1,7 @@
 //! The geometry as written: points and directions, each number with half a unit of its last digit.
 
 use super::number::Rational3;
+use crate::geom::extent::box_diagonal;
 use crate::geom::vector::{Vector, dot, length, sub, unit};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -45,11 +46,7 @@ const DOUBLE: f64 = 2e-15;
 impl WrittenScene {
     /// Returns the largest distance between two points, or 1 if all points coincide.
     pub(super) fn scene_size(&self) -> f64 {
-        let of = |i: usize| {
-            let each = self.points.iter().map(move |p| p.value[i]);
-            each.clone().fold(f64::MIN, f64::max) - each.fold(f64::MAX, f64::min)
-        };
-        let size = length([of(0), of(1), of(2)]);
+        let size = box_diagonal(self.points.iter().map(|p| p.value));
         if size.is_finite() && size > 0.0 {
             size
         } else {

@@ -62,6 +62,17 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// Returns its point, axis and reference.
+    #[must_use]
+    pub fn vectors(&self) -> [&[Expr; 3]; 3] {
+        [&self.point, &self.axis, &self.reference]
+    }
+
+    /// Returns its point, axis and reference for a change.
+    pub(crate) fn vectors_mut(&mut self) -> [&mut [Expr; 3]; 3] {
+        [&mut self.point, &mut self.axis, &mut self.reference]
+    }
+
     /// Returns true if two frames are written identically; `false` decides nothing.
     pub fn is_same(&self, other: &Frame) -> bool {
         self.has_same_axis(other)

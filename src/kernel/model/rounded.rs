@@ -15,7 +15,7 @@ pub use uncertainty::{FrameUncertainty, Uncertainties, uncertainties};
 use crate::geom::expr::{End, Expr, PI_DIGITS, WrittenNumber};
 use crate::geom::vector::to_vector;
 use crate::model::mechanism::{Frame, Mechanism, Mode};
-use class::is_rounded;
+use class::NumberKind;
 use std::fmt;
 
 /// Decimals with at least this many significant digits count as measured or computed, not chosen.
@@ -75,20 +75,19 @@ impl SeenDecimals {
         }
     }
 
-    /// Adds a direction.
-    fn see_direction(&mut self, v: &[Expr; 3], place: &dyn Fn() -> String) {
-        let least = if is_rounded(v) { 1 } else { LONG_DIRECTION };
+    /// Adds the coordinates of a vector, or a single one.
+    fn see_vector(&mut self, v: &[Expr], kind: NumberKind, place: &dyn Fn() -> String) {
+        let least = kind.least_digits_of(v);
         v.iter().for_each(|c| self.see_number(c, least, place));
     }
 
     fn see_frame(&mut self, f: &Frame, at: &dyn Fn() -> String) {
         let place = |what: &'static str| move || format!("{what} of {}", at());
-        for c in &f.point {
-            self.see_number(c, LONG_LENGTH, &place("point"));
-        }
-        self.see_direction(&f.axis, &place("axis"));
-        self.see_direction(&f.reference, &place("reference"));
-        self.see_number(&f.pitch, LONG_LENGTH, &place("pitch"));
+        self.see_vector(&f.point, NumberKind::Length, &place("point"));
+        self.see_vector(&f.axis, NumberKind::Direction, &place("axis"));
+        self.see_vector(&f.reference, NumberKind::Direction, &place("reference"));
+        let pitch = std::slice::from_ref(&f.pitch);
+        self.see_vector(pitch, NumberKind::Length, &place("pitch"));
     }
 }
 
@@ -122,12 +121,8 @@ pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
         seen.see_frame(&joint.frame, &|| format!("joint {}", joint.id));
         // Options mostly share the joint's position; only their own coordinates count.
         for o in joint.offered_options() {
-            let own = |a: &[Expr; 3], b: &[Expr; 3]| to_vector(a) != to_vector(b);
-            if own(&o.frame.point, &joint.frame.point)
-                || own(&o.frame.axis, &joint.frame.axis)
-                || own(&o.frame.reference, &joint.frame.reference)
-                || o.frame.pitch.to_f64() != joint.frame.pitch.to_f64()
-            {
+            let values = |f: &Frame| (f.vectors().map(to_vector), f.pitch.to_f64());
+            if values(&o.frame) != values(&joint.frame) {
                 seen.see_frame(&o.frame, &|| {
                     format!("option {} of joint {}", o.name, joint.id)
                 });
@@ -135,7 +130,8 @@ pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
         }
     }
     if let Mode::Planar { normal } = &mechanism.mode {
-        seen.see_direction(normal, &|| "normal of the plane".to_owned());
+        let place = || "normal of the plane".to_owned();
+        seen.see_vector(normal, NumberKind::Direction, &place);
     }
     let [measured, any] = seen.first;
     let pi = measured.as_ref().is_some_and(|m| m.0 == seen.pi);

@@ -1,7 +1,8 @@
 //! Conditions that the parts of a mechanism must satisfy.
 
 use crate::geom::expr::Expr;
-use crate::model::mechanism::{Joint, Mechanism, Mode, Parts, Role, StateId};
+use crate::model::mechanism::{Joint, LinkId, Mechanism, Mode, Parts, Role, StateId};
+use petgraph::unionfind::UnionFind;
 use std::collections::BTreeSet;
 use std::ops::{Deref, DerefMut};
 
@@ -200,21 +201,16 @@ fn check_direction(what: &'static str, of: &str, v: &[Expr; 3]) -> Result<(), In
 
 /// Checks that every link that has a joint in a state is connected to the frame.
 fn check_connected(parts: &Parts, state: StateId) -> Result<(), InvalidMechanism> {
-    let mut beside = vec![Vec::new(); parts.links.len()];
+    let mut sets = UnionFind::<usize>::new(parts.links.len());
     for j in parts.joints_in(state) {
-        let [a, b] = parts.joints[j].links;
-        beside[a.index()].push(b);
-        beside[b.index()].push(a);
+        let [a, b] = parts.joints[j].links.map(LinkId::index);
+        sets.union(a, b);
     }
-    let mut reached = vec![false; parts.links.len()];
-    let mut next = vec![parts.frame_link()];
-    while let Some(link) = next.pop() {
-        if !std::mem::replace(&mut reached[link.index()], true) {
-            next.extend(&beside[link.index()]);
-        }
-    }
-    let lost = |l: &usize| !reached[*l] && !beside[*l].is_empty();
-    match (0..reached.len()).find(lost) {
+    let frame = parts.frame_link().index();
+    match parts
+        .links_in(state)
+        .find(|l| !sets.equiv(l.index(), frame))
+    {
         Some(l) => Err(InvalidMechanism::Disconnected {
             link: parts.links[l].id.clone(),
             state: parts.states[state].clone(),

@@ -15,10 +15,10 @@ use crate::closure::Closure;
 use crate::geom::Reals;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::modp::Residue;
-use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::rank::exact::field::field_of;
-use crate::rank::exact::modular;
+use crate::rank::exact::modular::ExactState;
 use crate::rank::finite::local_dimension::Traced;
 use crate::rank::finite::local_dimension::continuation::lengths_are_alike;
 use crate::rank::finite::mobility::{by_ranks, prove_regular};
@@ -26,6 +26,7 @@ use crate::rank::finite::multiplicity::{Expanded, are_apart};
 use crate::rank::finite::second_order::{Roundings, SecondOrder, mobility_at_singular};
 use crate::rank::numeric::scaling::{rank_of_values, scaled_matrix};
 use ozols_dense::singular_values;
+use std::borrow::Cow;
 
 pub use mobility::{Finite, How, Proof};
 
@@ -76,38 +77,40 @@ pub(crate) fn finite_known(
     rank: usize,
     known: Option<&Roundings>,
 ) -> Result<Finite, ExactError> {
-    if let Some(known) = by_ranks(exact, mechanism, closure, rank)? {
+    let whole = ExactState {
+        exact,
+        mechanism,
+        closure: Cow::Borrowed(closure),
+        rank,
+    };
+    if let Some(known) = by_ranks(&whole)? {
         return Ok(known);
     }
     let state = closure.state;
     let parts = independent_parts::independent_parts(closure);
-    // Joints in no contour move freely.
-    let inside = |j: JointId| parts.iter().any(|p| p.contains(&j));
-    let free = closure.columns.iter().filter(|c| !inside(c.joint)).count();
+    let free = independent_parts::count_outside(closure, &parts);
     let mut total = Finite::new(free, How::Rigid);
     for joints in &parts {
-        let mut part = independent_parts::with_joints_only(mechanism, joints);
-        let mut own = Closure::new(exact, &part, state)?;
-        let mut rank = modular::rank_modulo(exact, &own);
-        if let Some(known) = by_ranks(exact, &part, &own, rank)? {
+        let part = independent_parts::with_joints_only(mechanism, joints);
+        let mut own = ExactState::new(exact, &part, state)?;
+        if let Some(known) = by_ranks(&own)? {
             total = total.combine_with(known);
             continue;
         }
-        let idle = independent_parts::lock_idle(exact, &mut part, state)?;
+        let mut locked = part.clone();
+        let idle = independent_parts::lock_idle(exact, &mut locked, state)?;
         if idle > 0 {
             total = total.combine_with(Finite::new(idle, How::Rigid));
-            own = Closure::new(exact, &part, state)?;
-            rank = modular::rank_modulo(exact, &own);
+            own = ExactState::new(exact, &locked, state)?;
         }
-        let found = match prove_regular(exact, &part, &own, rank)? {
+        let found = match prove_regular(&own)? {
             Some(known) => known,
             None => {
-                let pose = Pose::of_file(&part, state)?;
-                let found = exact_mobility(exact, &part, &own, rank, &pose)?;
-                let digits = |known| {
-                    let instantaneous = own.columns.len() - rank;
-                    within_digits(&part, &pose, instantaneous, Some(found), known)
-                };
+                let pose = Pose::of_file(own.mechanism, state)?;
+                let found = exact_mobility(&own, &pose)?;
+                let motions = own.mobility();
+                let digits =
+                    |known| within_digits(own.mechanism, &pose, motions, Some(found), known);
                 known.map_or(found, digits)
             }
         };
@@ -117,15 +120,9 @@ pub(crate) fn finite_known(
 }
 
 /// Returns the finite mobility of a part with exact coordinates that ranks do not decide.
-fn exact_mobility(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    closure: &Closure<Residue>,
-    rank: usize,
-    pose: &Pose,
-) -> Result<Finite, ExactError> {
-    let instantaneous = closure.columns.len() - rank;
-    let expanded = Expanded::new(exact, mechanism, closure, pose, rank)?;
+fn exact_mobility(at: &ExactState<'_>, pose: &Pose) -> Result<Finite, ExactError> {
+    let instantaneous = at.mobility();
+    let expanded = Expanded::new(at)?;
     let (series, line) = (expanded.series.as_ref(), expanded.line);
     let isolated = |m: usize| series.and_then(|s| s.isolating_degree(m));
     let stopped = line.and_then(|l| l.stopped);
@@ -136,23 +133,22 @@ fn exact_mobility(
     }
     let by = if expanded.is_never_stopped() {
         Some(Proof::Multiplicity)
-    } else if stopped.is_none() && are_apart(exact, mechanism, closure, rank)? {
+    } else if stopped.is_none() && are_apart(at)? {
         Some(Proof::Contours)
     } else {
         None
     };
     if let Some(by) = by {
-        return Ok(Finite::regular_pose(instantaneous, rank, by));
+        return Ok(Finite::regular_pose(instantaneous, at.rank, by));
     }
     // If series stop the motion in a random direction, not every first-order motion is finite.
     let shaky = stopped.is_some();
-    if !lengths_are_alike(exact, mechanism, closure.state)? {
+    if !lengths_are_alike(at.exact, at.mechanism, at.closure.state)? {
         let (from, to) = (0, instantaneous - usize::from(shaky));
         return Ok(Finite::between(from, to, How::Undecided));
     }
     if let (Some(series), Some(order)) = (series, stopped)
-        && let Some(found) =
-            mobility_at_singular(exact, mechanism, closure, rank, pose, series, order)?
+        && let Some(found) = mobility_at_singular(at, pose, series, order)?
     {
         return Ok(found);
     }
@@ -311,8 +307,7 @@ type Parts = (usize, Vec<(Mechanism, usize)>);
 fn numeric_parts(mechanism: &Mechanism, state: StateId) -> Option<Parts> {
     let closure = Closure::new(&Reals, mechanism, state).ok()?;
     let parts = independent_parts::independent_parts(&closure);
-    let inside = |j: JointId| parts.iter().any(|p| p.contains(&j));
-    let free = closure.columns.iter().filter(|c| !inside(c.joint)).count();
+    let free = independent_parts::count_outside(&closure, &parts);
     let each = parts.iter().map(|joints| {
         let part = independent_parts::with_joints_only(mechanism, joints);
         numeric_mobility(&part, state).map(|w| (part, w))

@@ -52,9 +52,8 @@ pub(in crate::rank) fn rounded_coordinates(
     let mut out = Vec::new();
     for joint in joints {
         let (frame, half) = (&m.joints[joint].frame, &half.frames[joint.index()]);
-        let halves = [half.point, half.axis, half.reference];
-        let all = [&frame.point, &frame.axis, &frame.reference].map(to_vector);
-        for (vector, (of, halves)) in all.into_iter().zip(halves).enumerate().take(vectors) {
+        let all = frame.vectors().map(to_vector).into_iter();
+        for (vector, (of, halves)) in all.zip(half.vectors()).enumerate().take(vectors) {
             let of_vector = of.into_iter().zip(halves).enumerate();
             let inexact = of_vector.filter(|(_, (_, half))| *half > 0.0);
             out.extend(inexact.map(|(component, (written, half))| Coordinate {
@@ -73,7 +72,7 @@ pub(in crate::rank) fn rounded_coordinates(
 /// Returns the values of a joint's frame with a coordinate changed.
 pub(in crate::rank) fn frame_with(m: &Mechanism, c: &Coordinate, value: f64) -> FrameValues<f64> {
     let frame = &m.joints[c.joint].frame;
-    let mut vectors = [&frame.point, &frame.axis, &frame.reference].map(to_vector);
+    let mut vectors = frame.vectors().map(to_vector);
     vectors[c.vector][c.component] = value;
     FrameValues::from_vectors(&Reals, vectors, frame.pitch.to_f64())
 }

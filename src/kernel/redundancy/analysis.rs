@@ -10,6 +10,7 @@ use crate::rank::exact::field::field_of;
 use crate::rank::exact::modular;
 use crate::rank::finite::{Finite, finite_mobility, followed_mobility};
 use crate::rank::method::auto::{Decision, decide_state};
+use crate::rank::method::formulas::count_mobility;
 use crate::rank::method::{Certainty, MobilityMethod, RankOfJ, to_i64};
 pub use crate::rank::numeric::Elimination;
 use crate::rank::numeric::NumericRank;
@@ -20,7 +21,7 @@ use crate::redundancy::contour_shares::Measured;
 pub use crate::redundancy::contour_shares::{ContourShare, CouplingShare};
 use crate::redundancy::contour_shares::{contour_shares, coupling_shares};
 pub use crate::redundancy::external::External;
-use crate::redundancy::external::{external_constraints, freedoms_of};
+use crate::redundancy::external::{external_constraints, external_measured};
 use crate::redundancy::local_mobility::{Idle, idle_motions};
 use crate::redundancy::motion::{DriveFault, drive_faults};
 use crate::redundancy::motion::{motion_basis, output_links, span_of_links};
@@ -160,53 +161,37 @@ fn analyse_by_choice(
         line,
     } = decide_state(mechanism, state)?;
     let as_written = (verdict.as_written != verdict.rank()).then_some(verdict.as_written);
-    let whole = match &verdict.meant {
-        Meant::AsWritten => analyse_exactly(mechanism, state, Some(finite))?,
-        Meant::Snapped { mechanism, .. } => analyse_exactly(mechanism, state, Some(finite))?,
-        Meant::Near {
-            mechanism: near,
-            rank,
-            ..
-        } => {
-            let found = NumericRank {
-                rank: *rank,
-                ..verdict.numeric.unwrap_or_default()
-            };
-            StateAnalysis {
-                certainty: Elimination::Svd.certainty_of(found, verdict.tolerance),
-                ..analyse_numerically(
-                    near,
-                    state,
-                    Elimination::Svd,
-                    found,
-                    // The geometry found has the accuracy of doubles.
-                    NEAR,
-                    Some(finite),
-                )?
-            }
+    let intended = verdict.intended_mechanism().unwrap_or(mechanism);
+    let numeric = verdict.numeric.unwrap_or_default();
+    let mut whole = if let Meant::Near { rank, .. } = verdict.meant {
+        let found = NumericRank { rank, ..numeric };
+        let by = Elimination::Svd;
+        StateAnalysis {
+            certainty: by.certainty_of(found, verdict.tolerance),
+            // The geometry found has the accuracy of doubles.
+            ..analyse_numerically(intended, state, by, found, NEAR, Some(finite))?
         }
-        Meant::Undecided { near } => StateAnalysis {
-            certainty: Certainty::Undecided {
-                as_written: verdict.as_written,
-                near: *near,
-                kept: verdict.numeric.unwrap_or_default().kept,
-                dropped: verdict.numeric.unwrap_or_default().dropped,
-            },
-            ..analyse_exactly(mechanism, state, Some(finite))?
-        },
+    } else {
+        analyse_exactly(intended, state, Some(finite))?
     };
-    let (meant, snapped) = match verdict.meant {
+    match verdict.meant {
         Meant::Snapped {
             mechanism,
             understood,
             ..
-        } => (Some(mechanism), vec![understood]),
-        _ => (None, Vec::new()),
-    };
+        } => (whole.meant, whole.snapped) = (Some(mechanism), vec![understood]),
+        Meant::Undecided { near } => {
+            whole.certainty = Certainty::Undecided {
+                as_written: verdict.as_written,
+                near,
+                kept: numeric.kept,
+                dropped: numeric.dropped,
+            }
+        }
+        Meant::AsWritten | Meant::Near { .. } => {}
+    }
     Ok(StateAnalysis {
         choice: Some(line),
-        meant,
-        snapped,
         as_written,
         ..whole
     })
@@ -241,8 +226,8 @@ fn analyse_numerically(
     }
     let measured = Measured::new(mechanism, state, tolerance)?;
     let working_mobility = measured.span_of_links(&output_links(mechanism));
-    let external = match &whole.external {
-        Some(e) => external_by(mechanism, tolerance, &whole, e, &measured)?,
+    let external = match whole.external {
+        Some(_) => external_measured(mechanism, &measured, tolerance)?,
         None => None,
     };
     Ok(StateAnalysis {
@@ -260,38 +245,6 @@ fn analyse_numerically(
         self_stresses: Vec::new(),
         ..whole
     })
-}
-
-/// Returns the constraints that a state adds to the free one by singular values, given the exact result `e`. Returns
-/// `None` if the ranks of the two contradict each other.
-fn external_by(
-    mechanism: &Mechanism,
-    tolerance: f64,
-    whole: &StateAnalysis,
-    e: &External,
-    measured: &Measured<'_>,
-) -> Result<Option<External>, AnalysisError> {
-    let own: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
-    let free = Measured::new(mechanism, StateId::FREE, tolerance)?;
-    let free_rows = Closure::new(&Reals, mechanism, StateId::FREE)?;
-    let free_redundant = free_rows.rows() + free.mobility() - free_rows.columns.len();
-    let (actual, working) = (
-        to_i64(free.mobility()),
-        to_i64(measured.span_of_joints(&own)),
-    );
-    let redundant = whole.rows + measured.mobility() - whole.freedoms;
-    let bodies = e.lost_mobility + to_i64(whole.mobility) - e.working_mobility;
-    let lost = bodies - (to_i64(measured.mobility()) - working);
-    let found = External {
-        actual_mobility: actual,
-        working_mobility: working,
-        lost_mobility: lost,
-        redundant: e.constraints - (actual - working) - lost,
-        by_rank: to_i64(redundant) - to_i64(free_redundant),
-        ..*e
-    };
-    // Ranks of two states at a tolerance may contradict each other. Neither is reported then.
-    Ok(Some(found).filter(|x| x.redundant == x.by_rank))
 }
 
 /// Share of the largest singular value below which values are zero, for a geometry that was moved until it has a rank.
@@ -395,16 +348,10 @@ fn analyse_exactly(
         idle.retain(|i| !driven().any(|j| j.links.iter().any(|l| i.links.contains(l))));
     }
     let freedoms = closure.columns.len();
-    let joints: Vec<JointId> = mechanism.joints_in(state).collect();
-    let links = mechanism.links_in(state).count();
-    let constraints: i64 = joints
-        .iter()
-        .map(|&j| to_i64(closure.dim) - to_i64(freedoms_of(&closure, j)))
-        .sum();
     Ok(StateAnalysis {
         state: mechanism.states[state].clone(),
-        links,
-        joints: joints.len(),
+        links: mechanism.links_in(state).count(),
+        joints: mechanism.joints_in(state).count(),
         contours: closure.contours.len(),
         freedoms,
         rows: closure.rows(),
@@ -415,9 +362,7 @@ fn analyse_exactly(
         working_mobility,
         local_mobility: kernel.len() - working_mobility,
         redundant: closure.rows() - rank,
-        formula_mobility: to_i64(closure.dim) * (to_i64(links) - 1)
-            - constraints
-            - to_i64(closure.couplings.len()),
+        formula_mobility: count_mobility(mechanism, state, to_i64(closure.dim), freedoms),
         least_rows: Some(least_rows),
         per_contour: contour_shares(exact, &closure),
         per_coupling: coupling_shares(exact, mechanism, &closure),

@@ -245,7 +245,7 @@ fn scattered_number(n: usize) -> i64 {
 #[derive(Debug)]
 pub struct Measured<'a> {
     mechanism: &'a Mechanism,
-    closure: Closure<f64>,
+    pub(super) closure: Closure<f64>,
     /// The scaled J.
     matrix: Matrix,
     /// Limit at or below which singular values count as zero.

@@ -1,12 +1,13 @@
 //! The external constraints that a clamped part, or any other state, adds to the free mechanism.
 
-use crate::closure::Closure;
+use crate::closure::{Closure, Column};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::exact::modular;
 use crate::rank::method::to_i64;
+use crate::redundancy::contour_shares::Measured;
 use crate::redundancy::motion::Speeds;
 use serde::Serialize;
 
@@ -28,6 +29,35 @@ pub struct External {
     pub by_rank: i64,
 }
 
+impl External {
+    /// Returns the external constraints of a state, given J of the free state and of this one, the mobilities by the rank
+    /// of each, and the mobility of the mechanism's own joints in this state.
+    fn new<N: Clone + Default + PartialEq>(
+        mechanism: &Mechanism,
+        [free, here]: [&Closure<N>; 2],
+        mobilities: [usize; 2],
+        working: usize,
+    ) -> External {
+        let more = |count: &dyn Fn(&Closure<N>) -> usize| to_i64(count(here)) - to_i64(count(free));
+        let bodies = more(&|c| mechanism.links_in(c.state).count());
+        let joints = more(&|c| mechanism.joints_in(c.state).count());
+        let freedoms = more(&|c| c.columns.len());
+        let dim = to_i64(here.dim);
+        let constraints = dim * joints - freedoms + more(&|c| c.couplings.len());
+        let [actual, all] = mobilities.map(to_i64);
+        let working = to_i64(working);
+        let lost = dim * bodies - (all - working);
+        External {
+            constraints,
+            actual_mobility: actual,
+            working_mobility: working,
+            lost_mobility: lost,
+            redundant: constraints - (actual - working) - lost,
+            by_rank: more(&|c| c.rows()) + all - actual - freedoms,
+        }
+    }
+}
+
 /// Returns the external constraints of the state of `closure`; `kernel` is a basis of its motions.
 pub(super) fn external_constraints(
     exact: &ExactField,
@@ -36,44 +66,39 @@ pub(super) fn external_constraints(
     kernel: &[Speeds],
 ) -> Result<External, ExactError> {
     let free = Closure::new(exact, mechanism, StateId::FREE)?;
-    let free_rank = modular::rank_modulo(exact, &free);
-    let rank = modular::rank_modulo(exact, closure);
-    let own: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
-    let all: Vec<JointId> = mechanism.joints_in(closure.state).collect();
-    let added = || mechanism.joints_added_in(closure.state);
-    let of_joints: i64 = added()
-        .map(|j| to_i64(closure.dim) - to_i64(freedoms_of(closure, j)))
-        .sum();
-    let left_out = own.iter().filter(|j| !all.contains(j));
-    let of_joints = of_joints
-        - left_out
-            .map(|&j| to_i64(closure.dim) - to_i64(freedoms_of(&free, j)))
-            .sum::<i64>();
-    let constraints = of_joints + to_i64(closure.couplings.len()) - to_i64(free.couplings.len());
-    let links = |state| to_i64(mechanism.links_in(state).count());
-    let bodies = links(closure.state) - links(StateId::FREE);
+    let actual = free.columns.len() - modular::rank_modulo(exact, &free);
     // The mechanism's own part of each motion.
-    let mut span = Echelon::new(exact.field());
-    for speeds in kernel {
-        let part: Vec<Residue> = speeds
-            .iter()
-            .zip(&closure.columns)
-            .map(|(&s, c)| if own.contains(&c.joint) { s } else { 0 })
-            .collect();
-        span.insert(&part);
-    }
-    let (actual, working) = (to_i64(free.columns.len() - free_rank), to_i64(span.rank()));
-    let lost = to_i64(closure.dim) * bodies - (to_i64(kernel.len()) - working);
-    Ok(External {
-        constraints,
-        actual_mobility: actual,
-        working_mobility: working,
-        lost_mobility: lost,
-        redundant: constraints - (actual - working) - lost,
-        by_rank: to_i64(closure.rows() - rank) - to_i64(free.rows() - free_rank),
-    })
+    let own = |c: &Column<Residue>| mechanism.joints[c.joint].is_in(StateId::FREE);
+    let part = |speeds: &Speeds| -> Vec<Residue> {
+        let each = speeds.iter().zip(&closure.columns);
+        each.map(|(&s, c)| if own(c) { s } else { 0 }).collect()
+    };
+    let working = Echelon::from_vectors(exact.field(), kernel.iter().map(part)).rank();
+    let mobilities = [actual, kernel.len()];
+    Ok(External::new(
+        mechanism,
+        [&free, closure],
+        mobilities,
+        working,
+    ))
 }
 
-pub(super) fn freedoms_of(closure: &Closure<Residue>, joint: JointId) -> usize {
-    closure.columns.iter().filter(|c| c.joint == joint).count()
+/// Returns the external constraints by singular values, or `None` if the ranks of the two states at the tolerance
+/// contradict each other.
+pub(super) fn external_measured(
+    mechanism: &Mechanism,
+    here: &Measured<'_>,
+    tolerance: f64,
+) -> Result<Option<External>, ExactError> {
+    let free = Measured::new(mechanism, StateId::FREE, tolerance)?;
+    let own: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
+    let mobilities = [free.mobility(), here.mobility()];
+    let working = here.span_of_joints(&own);
+    let found = External::new(
+        mechanism,
+        [&free.closure, &here.closure],
+        mobilities,
+        working,
+    );
+    Ok(Some(found).filter(|x| x.redundant == x.by_rank))
 }

@@ -9,6 +9,7 @@
 
 use crate::closure::tree::path_from_frame;
 use crate::geom::exact::ExactError;
+use crate::geom::rigid::join_twist;
 use crate::geom::vector::{Vector, X, Y, Z, add, cross, dot, length, scale, sub};
 use crate::model::mechanism::{LinkId, Mechanism, StateId};
 use crate::motion::pose::{FLAT, Pose};
@@ -57,14 +58,10 @@ impl LinkMotion {
     /// Returns the twists (ω; v) about the origin in the file's unit: translations first.
     #[must_use]
     pub fn motion_twists(&self) -> Vec<[f64; 6]> {
-        let slides = self
-            .slides
-            .iter()
-            .map(|s| [0.0, 0.0, 0.0, s[0], s[1], s[2]]);
+        let slides = self.slides.iter().map(|s| join_twist([0.0; 3], *s));
         let turns = self.turns.iter().map(|t| {
             let along = scale(t.axis, t.lead / std::f64::consts::TAU);
-            let [w, v] = [t.axis, add(cross(t.point, t.axis), along)];
-            [w[0], w[1], w[2], v[0], v[1], v[2]]
+            join_twist(t.axis, add(cross(t.point, t.axis), along))
         });
         slides.chain(turns).collect()
     }

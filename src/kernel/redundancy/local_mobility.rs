@@ -12,7 +12,7 @@ use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::motion::drive_range::Way;
 use crate::motion::pose::{FLAT, Pose};
 use crate::rank::reduce::axis_names::Direction;
-use crate::redundancy::motion::{Speeds, link_twist};
+use crate::redundancy::motion::{Speeds, link_twist, link_twists};
 use ozols_dense::{add_scaled, difference, dot, largest_entry, norm, svd};
 use std::f64::consts::TAU;
 
@@ -86,12 +86,8 @@ fn at_rest(
 ) -> Vec<Speeds> {
     let f = exact.field();
     let of_outputs = closure.link_motions(exact, mechanism, outputs);
-    let moved = |speeds: &Speeds| {
-        let twists = of_outputs.iter();
-        twists.flat_map(|m| link_twist(exact, m, speeds)).collect()
-    };
-    let images: Vec<Vec<Residue>> = kernel.iter().map(moved).collect();
-    let all = linear_relations(f, &images);
+    let moved = kernel.iter().map(|x| link_twists(exact, &of_outputs, x));
+    let all = linear_relations(f, &moved.collect::<Vec<_>>());
     all.iter()
         .map(|factors| linear_combination(f, kernel, factors))
         .collect()

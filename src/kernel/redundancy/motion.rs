@@ -42,6 +42,16 @@ pub(crate) fn link_twist(
     echelon::linear_combination(exact.field(), link_motion, speeds)
 }
 
+/// Returns the twists of some links under a motion, one after the other.
+pub(super) fn link_twists<'m>(
+    exact: &ExactField,
+    link_motions: impl IntoIterator<Item = &'m Vec<Vec<Residue>>>,
+    speeds: &[Residue],
+) -> Vec<Residue> {
+    let each = link_motions.into_iter();
+    each.flat_map(|m| link_twist(exact, m, speeds)).collect()
+}
+
 /// Returns the joint motion of some links and of the kept drives in a state. It is the reduced span of the links'
 /// twists, one after the other, followed by the drives' rates. Locked drives are at rest.
 ///
@@ -65,12 +75,11 @@ pub(crate) fn joint_motion(
     } else {
         kept.extend(&of_drives);
     }
-    let mut span = Echelon::new(exact.field());
-    for speeds in echelon::linear_relations(exact.field(), &columns) {
-        let of_each = kept.iter().flat_map(|m| link_twist(exact, m, &speeds));
-        span.insert(&of_each.collect::<Vec<Residue>>());
-    }
-    Ok(span.reduced_rows())
+    let motions = echelon::linear_relations(exact.field(), &columns);
+    let moved = motions
+        .iter()
+        .map(|x| link_twists(exact, kept.iter().copied(), x));
+    Ok(Echelon::from_vectors(exact.field(), moved).reduced_rows())
 }
 
 /// Returns, for each drive that the search follows, the rate that each column of J gives it, as a list of one number.
@@ -131,15 +140,8 @@ pub(crate) fn span_of_links(
     links: &[LinkId],
 ) -> usize {
     let paths = closure.link_motions(exact, mechanism, links);
-    let mut span = Echelon::new(exact.field());
-    for speeds in kernel {
-        let all: Vec<Residue> = paths
-            .iter()
-            .flat_map(|p| link_twist(exact, p, speeds))
-            .collect();
-        span.insert(&all);
-    }
-    span.rank()
+    let moved = kernel.iter().map(|x| link_twists(exact, &paths, x));
+    Echelon::from_vectors(exact.field(), moved).rank()
 }
 
 /// A fault of the drives of a state.
@@ -195,11 +197,8 @@ pub(super) fn drive_faults(
     }
     let moves = |&&(column, _): &&(usize, JointId)| motions.iter().any(|x| x[column] != 0);
     let moving = driven.iter().filter(moves).count();
-    let mut speeds = Echelon::new(exact.field());
-    for x in motions {
-        let of_drives: Vec<Residue> = driven.iter().map(|&(column, _)| x[column]).collect();
-        speeds.insert(&of_drives);
-    }
+    let of_drives = |x: &Speeds| -> Vec<Residue> { driven.iter().map(|d| x[d.0]).collect() };
+    let speeds = Echelon::from_vectors(exact.field(), motions.iter().map(of_drives));
     let mut out = Vec::new();
     if drives > mobility {
         out.push(DriveFault::Surplus { drives, mobility });

@@ -7,7 +7,6 @@ use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::motion::pose::Pose;
 use crate::rank::finite::local_dimension::null_space_of;
 use crate::rank::finite::{Finite, How};
-use crate::rank::numeric::scaling::rank_of_values;
 use ozols_dense::{Matrix, add_scaled, difference, norm, svd};
 
 /// Number of further poses examined if nothing else decides what holds over the motion: normally, and if each takes
@@ -276,8 +275,7 @@ impl Walk<'_> {
         // by as much.
         let zero = self.tolerance.max(SLOPE * gap.sqrt());
         let coarse = (SLOPE * self.accuracy.sqrt()).min(COARSEST);
-        let [most, least] = [zero, zero.max(coarse)]
-            .map(|tolerance| rank_of_values(svd.values.clone(), tolerance).rank);
+        let [most, least] = [zero, zero.max(coarse)].map(|tolerance| svd.rank(tolerance));
         if q.len() - least < self.least_mobility {
             return None;
         }

@@ -10,6 +10,7 @@
 use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::geom::Reals;
 use crate::geom::exact::ExactError;
+use crate::geom::rigid::split_twist;
 use crate::geom::vector::{Vector, cross, length, sub, to_vector, unit};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, JointId, Mechanism};
@@ -133,9 +134,8 @@ pub fn added_freedoms(
     let single = |(frame, kind): (&Frame, &JointType)| -> Result<Vec<[Vector; 2]>, ExactError> {
         let all = joint_twists(&Reals, &MotionSpace::Spatial, frame, kind)?;
         let about = |t: Vec<f64>| {
-            let (w, v) = ([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
-            let v = sub(v, cross(origin, w));
-            [w, v]
+            let (w, v) = split_twist(&t);
+            [w, sub(v, cross(origin, w))]
         };
         Ok(all.into_iter().map(|(_, t)| about(t)).collect())
     };

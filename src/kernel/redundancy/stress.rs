@@ -285,10 +285,7 @@ fn first_those_without(
             .iter()
             .map(|factors| linear_combination(f, &with, factors)),
     );
-    let mut span = Echelon::new(f);
-    without.iter().for_each(|s| {
-        span.insert(s);
-    });
+    let mut span = Echelon::from_vectors(f, &without);
     let rest = with.into_iter().filter(|s| span.insert(s)).collect();
     (without, rest)
 }

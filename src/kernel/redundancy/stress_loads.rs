@@ -9,6 +9,7 @@ use crate::closure::Closure;
 use crate::closure::contour::Contour;
 use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::geom::exact::ExactError;
+use crate::geom::rigid::{join_twist, split_twist};
 use crate::geom::vector::{Vector, dot, scale, sub};
 use crate::geom::{Reals, Scalars};
 use crate::linalg::modp::Residue;
@@ -309,23 +310,18 @@ impl<'a, S: Scalars> JointWrenches<'a, S> {
                     s.scaled_sum(across.clone(), e2.clone(), first),
                 )
             }
-            (_, sum) => {
-                let part = |from: usize| std::array::from_fn(|i| sum[from + i].clone());
-                (part(0), part(3))
-            }
+            (_, sum) => split_twist(sum),
         };
-        let ([a, b, c], [d, e, g]) = (m, f);
-        [a, b, c, d, e, g]
+        join_twist(m, f)
     }
 
     /// Returns the moment of a wrench about the joint's point, m - p × f. In a plane it is the part along the normal,
     /// times [`Self::scale`].
     pub(super) fn moment_at(&self, joint: JointId, w: &Wrench<S::Number>) -> [S::Number; 3] {
         let s = self.s;
-        let [m0, m1, m2, f0, f1, f2] = w.clone();
-        let arm = s.cross(self.frames[joint].point.clone(), [f0, f1, f2]);
-        let [a0, a1, a2] = arm;
-        let moment = [s.sub(m0, a0), s.sub(m1, a1), s.sub(m2, a2)];
+        let (m, f) = split_twist(w);
+        let arm = s.cross(self.frames[joint].point.clone(), f);
+        let moment = std::array::from_fn(|i| s.sub(m[i].clone(), arm[i].clone()));
         match &self.space {
             MotionSpace::Spatial => moment,
             MotionSpace::Planar { axes: [n, ..] } => {

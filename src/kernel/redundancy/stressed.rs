@@ -4,7 +4,7 @@ use crate::closure::Closure;
 use crate::closure::twist::MotionSpace;
 use crate::geom::Reals;
 use crate::geom::exact::ExactError;
-use crate::geom::rigid::perpendicular;
+use crate::geom::rigid::{join_twist, perpendicular};
 use crate::geom::vector::{Vector, X, Y, Z, across, cross, length, to_vector, unit};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::finite::independent_parts::independent_parts;
@@ -134,7 +134,7 @@ impl<'a> Stressed<'a> {
             cross(self.joint_point(joint), d)
         };
         let w = if slides { [0.0; 3] } else { d };
-        let whole = [w[0], w[1], w[2], v[0], v[1], v[2]];
+        let whole = join_twist(w, v);
         let mut twist = self.space.components_in_space(&Reals, &whole)?;
         self.scaling.scale_to_unit(&mut twist);
         Some(twist)

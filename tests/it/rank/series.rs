@@ -6,8 +6,7 @@ use ozols::rank::finite::higher_order::HigherOrder;
 fn series(m: &Mechanism, rank: usize) -> Option<HigherOrder> {
     let exact = field_of(m, StateId::FREE, 0).unwrap();
     let closure = Closure::new(&exact, m, StateId::FREE).unwrap();
-    let pose = Pose::of_file(m, StateId::FREE).unwrap();
-    HigherOrder::new(&exact, m, &closure, &pose, rank).unwrap()
+    HigherOrder::new(&exact, m, &closure, rank).unwrap()
 }
 
 /// Where all that moves instantaneously moves in fact, as the files state, no subspace of it is isolated.

@@ -3,6 +3,7 @@
 use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
 use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::rigid::{join_twist, split_twist};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::joint_type::JointType;
@@ -46,31 +47,30 @@ impl Map {
         let f = exact.field();
         // A turn about u is a turn about -u in a mirror. The body point at the origin is the image of that at the
         // shift.
-        let image = |[w0, w1, w2, v0, v1, v2]: [Residue; 6]| {
-            let turned = self.map_direction(f, [w0, w1, w2]);
+        let image = |t: [Residue; 6]| {
+            let (w, v) = split_twist(&t);
+            let turned = self.map_direction(f, w);
             let w = if self.reflects {
                 turned.map(|x| f.neg(x))
             } else {
                 turned
             };
             let arm = exact.cross(self.shift, w);
-            let v = self.map_direction(f, [v0, v1, v2]);
-            let at = |i: usize| f.add(v[i], arm[i]);
-            [w[0], w[1], w[2], at(0), at(1), at(2)]
+            let v = self.map_direction(f, v);
+            join_twist(w, [0, 1, 2].map(|i| f.add(v[i], arm[i])))
         };
         let space = MotionSpace::new(exact, mode)?;
         let freedoms = from.joint_type.freedoms();
         let values = FrameValues::new(exact, from.frame)?;
-        let (mut images, mut own) = (Echelon::new(f), Echelon::new(f));
+        let mut images = Echelon::new(f);
         for (_, twist) in values.motions_in_space(exact, &space, freedoms) {
             match space.components_in_space(exact, &image(twist)) {
                 Some(t) => images.insert(&t),
                 None => return Ok(false),
             };
         }
-        for (_, t) in joint_twists(exact, &space, to.frame, to.joint_type)? {
-            own.insert(&t);
-        }
+        let own = joint_twists(exact, &space, to.frame, to.joint_type)?;
+        let own = Echelon::from_vectors(f, own.into_iter().map(|(_, t)| t));
         Ok(images.reduced_rows() == own.reduced_rows())
     }
 }

@@ -37,6 +37,10 @@ impl Quadratic {
         Some(Quadratic { u, v, d })
     }
 
+    fn rational(r: BigRational) -> Option<Quadratic> {
+        Quadratic::new(r, BigRational::zero(), BigInt::one())
+    }
+
     fn from_root(r: &BigRational) -> Option<Quadratic> {
         let radical = simplify_root(r).ok()?;
         let d = radical
@@ -127,7 +131,7 @@ fn as_quadratic(expr: &Expr) -> Option<Quadratic> {
     for e in expr.post_order() {
         let at = |c: &Expr| memo.get(&c.id());
         let value = match e.kind() {
-            NodeKind::Rational(r) => Quadratic::new(r.clone(), BigRational::zero(), BigInt::one())?,
+            NodeKind::Rational(r) => Quadratic::rational(r.clone())?,
             NodeKind::Add(a, b) => at(a)?.add(at(b)?)?,
             NodeKind::Sub(a, b) => at(a)?.add(&at(b)?.neg())?,
             NodeKind::Mul(a, b) => at(a)?.mul(at(b)?)?,
@@ -139,8 +143,7 @@ fn as_quadratic(expr: &Expr) -> Option<Quadratic> {
                 } else {
                     at(a)?.clone()
                 };
-                let mut product =
-                    Quadratic::new(BigRational::one(), BigRational::zero(), BigInt::one())?;
+                let mut product = Quadratic::rational(BigRational::one())?;
                 for _ in 0..n.unsigned_abs() {
                     product = product.mul(&base)?;
                 }
@@ -176,12 +179,8 @@ pub(crate) fn denest_root(inner: &Expr) -> Option<Expr> {
         .into_iter()
         .find_map(|(k, n)| {
             // cos^2 x = (1 + cos 2x) / 2
-            let one = Quadratic::new(BigRational::one(), BigRational::zero(), BigInt::one())?;
-            let half = Quadratic::new(
-                BigRational::new(1.into(), 2.into()),
-                BigRational::zero(),
-                BigInt::one(),
-            )?;
+            let one = Quadratic::rational(BigRational::one())?;
+            let half = Quadratic::rational(BigRational::new(1.into(), 2.into()))?;
             let square = one.add(&Quadratic::cos(k, n / 2)?)?.mul(&half)?;
             Some(
                 Expr::trig_of_turns(Function::Cos, k, n)?

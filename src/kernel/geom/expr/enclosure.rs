@@ -1,6 +1,6 @@
 //! Rigorous enclosures: intervals with big-integer ends that certainly contain a value.
 
-use num_bigint::{BigInt, Sign};
+use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -224,49 +224,15 @@ impl Enclosure {
 
     /// Returns the midpoint rounded to nearest even.
     pub(super) fn to_f64(&self) -> f64 {
-        if self.lo.is_negative() && self.hi.is_positive() {
-            return 0.0;
-        }
         let (mid, e) = (&self.lo + &self.hi, self.e - 1);
-        let magnitude = mid.magnitude();
-        if magnitude.is_zero() {
-            return 0.0;
-        }
-        let top = e + magnitude.bits() as i64;
-        if top > 1030 {
-            return if mid.sign() == Sign::Minus {
-                f64::NEG_INFINITY
-            } else {
-                f64::INFINITY
-            };
-        }
+        let signs_differ = self.lo.is_negative() && self.hi.is_positive();
         // Below all subnormals; aligning such a number would take memory in proportion to its exponent.
-        if top < -1080 {
+        if signs_differ || mid.is_zero() || e + (mid.bits() as i64) < -1080 {
             return 0.0;
         }
-        // The last bit of a double of this size; subnormals stop at -1074.
-        let last = (top - 53).max(-1074);
-        let shift = last - e;
-        let rounded = if shift <= 0 {
-            magnitude << shift.unsigned_abs()
-        } else {
-            let kept = magnitude >> shift;
-            let rest = magnitude - (&kept << shift);
-            let half = num_bigint::BigUint::one() << (shift - 1);
-            if rest > half || (rest == half && kept.is_odd()) {
-                kept + 1u32
-            } else {
-                kept
-            }
-        };
-        // In two steps, because 2^-1074 alone is subnormal and 2^1023 the largest power.
-        let m = rounded.to_u64().unwrap_or(0) as f64;
-        let half = (last / 2) as i32;
-        let value = m * 2f64.powi(half) * 2f64.powi(last as i32 - half);
-        if mid.sign() == Sign::Minus {
-            -value
-        } else {
-            value
-        }
+        // With this exponent and any larger one the number is infinite.
+        let e = e.min(1100);
+        let exact = BigRational::new_raw(mid << e.max(0), BigInt::one() << (-e).max(0));
+        exact.to_f64().unwrap_or(f64::NAN)
     }
 }

@@ -6,7 +6,7 @@ use super::*;
 fn relations(points: &[Vector], error: f64) -> Vec<Relation> {
     let [x, ..] = frame_axes();
     let errors = vec![error; points.len()];
-    Finder::new(points, &errors, vec![Exact::of_axis(x)]).find_all()
+    Finder::new(points, &errors, vec![Exact::new(x, 0.0)]).find_all()
 }
 
 fn of_kind(all: &[Relation], kind: RelationKind) -> Vec<&Relation> {

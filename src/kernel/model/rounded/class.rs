@@ -36,6 +36,15 @@ impl NumberKind {
             NumberKind::Direction => LONG_DIRECTION,
         }
     }
+
+    /// Returns the minimum number of significant digits of a long number of a vector. Unless a direction was chosen, its
+    /// decimals count as long with any number of digits.
+    pub(super) fn least_digits_of(self, v: &[Expr]) -> usize {
+        match self {
+            NumberKind::Direction if is_rounded(v) => 1,
+            _ => self.least_digits(),
+        }
+    }
 }
 
 /// The numbers of a kind as written, with equal ones counted once.
@@ -53,19 +62,14 @@ pub(super) struct NumberClass {
 }
 
 impl NumberClass {
-    /// Adds a direction. Unless it was chosen, its decimals count as long with any number of digits.
-    pub(super) fn see_direction(&mut self, v: &[Expr]) {
-        let least = if is_rounded(v) { 1 } else { LONG_DIRECTION };
-        v.iter().for_each(|e| self.see_from(e, least));
-    }
-
-    /// Adds a number.
-    pub(super) fn see_number(&mut self, e: &Expr, kind: NumberKind) {
-        self.see_from(e, kind.least_digits());
+    /// Adds the numbers of a vector, or a single number.
+    pub(super) fn see_vector(&mut self, v: &[Expr], kind: NumberKind) {
+        let least = kind.least_digits_of(v);
+        v.iter().for_each(|e| self.see_number(e, least));
     }
 
     /// Adds a number that is long from `least` significant digits on.
-    fn see_from(&mut self, e: &Expr, least: usize) {
+    fn see_number(&mut self, e: &Expr, least: usize) {
         let size = e.to_f64().abs();
         let digits = match e.written() {
             WrittenNumber::Decimal(digits) if digits.end != End::Float => digits,
@@ -224,7 +228,7 @@ fn digits_of(e: &Expr) -> Option<Digits> {
 
 /// Returns true if a direction is rounded, judging by its components together: at least two of them are decimals, and
 /// they were not chosen.
-pub(super) fn is_rounded(v: &[Expr]) -> bool {
+fn is_rounded(v: &[Expr]) -> bool {
     v.iter().filter(|e| digits_of(e).is_some()).count() > 1 && !is_chosen(v)
 }
 

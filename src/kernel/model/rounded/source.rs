@@ -31,15 +31,11 @@ impl Sources {
     /// `None` if there are none.
     pub fn largest_half_units(&self) -> Option<Largest> {
         let (mut lengths, mut directions) = (NumberClass::default(), NumberClass::default());
-        self.lengths
-            .iter()
-            .for_each(|e| lengths.see_number(e, NumberKind::Length));
-        self.directions
-            .iter()
-            .for_each(|v| directions.see_direction(v));
-        self.angles
-            .iter()
-            .for_each(|e| directions.see_number(e, NumberKind::Direction));
+        lengths.see_vector(&self.lengths, NumberKind::Length);
+        let angles = self.angles.iter().map(std::slice::from_ref);
+        for v in self.directions.iter().map(Vec::as_slice).chain(angles) {
+            directions.see_vector(v, NumberKind::Direction);
+        }
         let [lengths, directions] = [lengths, directions].map(NumberClass::with_commonest);
         if !lengths.is_long() && !directions.is_long() {
             return None;

@@ -18,6 +18,14 @@ pub struct FrameUncertainty {
     pub pitch: f64,
 }
 
+impl FrameUncertainty {
+    /// Returns the half units of its point, axis and reference.
+    #[must_use]
+    pub fn vectors(&self) -> [[f64; 3]; 3] {
+        [self.point, self.axis, self.reference]
+    }
+}
+
 /// Half units of all numbers of a mechanism that may have been rounded, in the file's own numbers; 0 if they are exact.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Uncertainties {
@@ -131,8 +139,8 @@ impl Reading {
             let says = |e: &Expr| matches!(e.written(), WrittenNumber::Stated(half) if half > 0.0);
             stated |= v.iter().any(says);
             match kind {
-                NumberKind::Length => v.iter().for_each(|e| lengths.see_number(e, kind)),
-                NumberKind::Direction => directions.see_direction(v),
+                NumberKind::Length => lengths.see_vector(v, kind),
+                NumberKind::Direction => directions.see_vector(v, kind),
             }
         };
         let own = mechanism.joints.iter().map(|j| &j.frame);

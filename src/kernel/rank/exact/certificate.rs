@@ -18,11 +18,10 @@
 //! ```
 
 use crate::closure::Closure;
-use crate::closure::coupling::coupling_coefficients;
 use crate::geom::exact::ExactError;
 use crate::geom::number_field::{NumberField, NumberFieldError};
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::exact::field::{frame_coordinates, plane_normal};
+use crate::rank::exact::field::expressions_in;
 use crate::rank::exact::kernel::Kernel;
 pub use crate::rank::exact::kernel::{Budget, NoCertificate};
 pub use crate::verify::certificate::Certificate;
@@ -47,16 +46,7 @@ pub fn number_field(
     mechanism: &Mechanism,
     state: StateId,
 ) -> Result<NumberField, NumberFieldError> {
-    let frames = mechanism
-        .joints_in(state)
-        .map(|j| &mechanism.joints[j].frame);
-    let couplings = coupling_coefficients(mechanism, state);
-    NumberField::for_expressions(
-        frames
-            .flat_map(frame_coordinates)
-            .chain(plane_normal(mechanism))
-            .chain(&couplings),
-    )
+    NumberField::for_expressions(&expressions_in(mechanism, state))
 }
 
 /// Returns J of a state over its number field, the matrix that a certificate is checked against.

@@ -7,22 +7,26 @@ use crate::geom::expr::Expr;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{Frame, JointOption, Mechanism, Mode, StateId};
 
-/// Returns the coordinates of a joint's frame.
-pub(in crate::rank) fn frame_coordinates(frame: &Frame) -> impl Iterator<Item = &Expr> {
-    frame
-        .point
-        .iter()
-        .chain(&frame.axis)
-        .chain(&frame.reference)
-        .chain([&frame.pitch])
-}
-
-/// Returns the coordinates of the plane's normal, or nothing if there is none.
-pub(in crate::rank) fn plane_normal(mechanism: &Mechanism) -> &[Expr] {
-    match &mechanism.mode {
+/// Returns the coordinates of some joints' frames and of the plane's normal, with the entries of coupling rows.
+fn all_expressions<'m>(
+    mechanism: &'m Mechanism,
+    frames: impl Iterator<Item = &'m Frame>,
+    couplings: Vec<Expr>,
+) -> Vec<Expr> {
+    let normal: &[Expr] = match &mechanism.mode {
         Mode::Spatial => &[],
         Mode::Planar { normal } => normal,
-    }
+    };
+    let of_frames = frames.flat_map(|f| f.vectors().into_iter().flatten().chain([&f.pitch]));
+    let own = of_frames.chain(normal).cloned();
+    own.chain(couplings).collect()
+}
+
+/// Returns the expressions of the joints present in a state, for the field in which they need values.
+pub(in crate::rank) fn expressions_in(mechanism: &Mechanism, state: StateId) -> Vec<Expr> {
+    let joints = mechanism.joints_in(state);
+    let frames = joints.map(|j| &mechanism.joints[j].frame);
+    all_expressions(mechanism, frames, coupling_coefficients(mechanism, state))
 }
 
 /// Returns the exact field of the joints present in a state, in the `nth` suitable prime.
@@ -45,15 +49,7 @@ pub fn field_of(
     state: StateId,
     nth: usize,
 ) -> Result<ExactField, ExactError> {
-    let frames = mechanism
-        .joints_in(state)
-        .map(|j| &mechanism.joints[j].frame);
-    let couplings = coupling_coefficients(mechanism, state);
-    let of_frames = frames.flat_map(frame_coordinates);
-    ExactField::for_expressions(
-        of_frames.chain(plane_normal(mechanism)).chain(&couplings),
-        nth,
-    )
+    ExactField::for_expressions(&expressions_in(mechanism, state), nth)
 }
 
 /// Returns the exact field of the joints present in a state, and J of the state in it.
@@ -89,10 +85,8 @@ pub fn exact_field(mechanism: &Mechanism, nth: usize) -> Result<ExactField, Exac
             .chain(j.options.iter().map(|o| &o.frame))
             .chain(j.unloading.iter().map(|o| &o.frame))
     });
-    let couplings = coupling_expressions(mechanism);
-    let of_frames = frames.flat_map(frame_coordinates);
-    let others = plane_normal(mechanism).iter().chain(&couplings);
-    ExactField::for_expressions(of_frames.chain(others), nth)
+    let all = all_expressions(mechanism, frames, coupling_expressions(mechanism));
+    ExactField::for_expressions(&all, nth)
 }
 
 /// Returns the entries of the coupling rows, for the original joints and for each of their options.

@@ -87,31 +87,24 @@ impl Default for Budget {
     }
 }
 
-/// The pivots of a matrix modulo a prime.
-#[derive(Debug, Clone, PartialEq, Eq)]
-struct Pivots {
-    rows: Vec<usize>,
-    columns: Vec<usize>,
-}
-
-impl Pivots {
-    /// Returns true if these pivots are worse than the others. A prime can only lower the rank and move the pivots to
-    /// the right.
-    fn worse_than(&self, other: &Pivots) -> bool {
-        (other.columns.len(), &self.columns) > (self.columns.len(), &other.columns)
-    }
+/// Returns true if pivot columns are worse than others. A prime can only lower the rank and move the pivots to the right.
+fn are_worse(columns: &[usize], than: &[usize]) -> bool {
+    (than.len(), columns) > (columns.len(), than)
 }
 
 /// The reduced matrix modulo a prime under one homomorphism.
 struct Image {
-    pivots: Pivots,
+    /// Pivot rows.
+    rows: Vec<usize>,
+    /// Pivot columns.
+    columns: Vec<usize>,
     /// Entries of the reduced kernel at the pivots, vector by vector, with ascending pivots.
     entries: Vec<Residue>,
 }
 
 /// Results for one prime.
 struct Views {
-    pivots: Pivots,
+    /// The minor of the pivots.
     minor: Minor,
     /// Coordinates of the kernel's entries at the pivots, entry by entry.
     coordinates: Vec<Residue>,
@@ -124,7 +117,7 @@ pub(in crate::rank) struct Kernel<'a> {
     matrix: &'a MatrixOverRing,
     budget: Budget,
     modulus: Modulus,
-    found: Option<(Pivots, Minor)>,
+    found: Option<Minor>,
     unknowns: Vec<Unknown>,
     operations: u64,
 }
@@ -163,7 +156,7 @@ impl<'a> Kernel<'a> {
             let views = self.kernel_at_prime(&splitting);
             let worse = |views: &Views| {
                 let found = self.found.as_ref();
-                found.is_some_and(|(p, _)| *p != views.pivots && views.pivots.worse_than(p))
+                found.is_some_and(|m| are_worse(&views.minor.columns, &m.columns))
             };
             let Some(views) = views.filter(|views| !worse(views)) else {
                 bad += 1;
@@ -175,10 +168,10 @@ impl<'a> Kernel<'a> {
             if self
                 .found
                 .as_ref()
-                .is_none_or(|(p, _)| p.columns != views.pivots.columns)
+                .is_none_or(|m| m.columns != views.minor.columns)
             {
                 // This is the first prime, or all earlier ones were unlucky.
-                let free = self.matrix.columns() - views.pivots.columns.len();
+                let free = self.matrix.columns() - views.minor.columns.len();
                 let coordinates = [self.matrix.columns(), free, degree]
                     .into_iter()
                     .fold(1, usize::saturating_mul);
@@ -187,7 +180,7 @@ impl<'a> Kernel<'a> {
                 }
                 self.unknowns = vec![Unknown::default(); views.coordinates.len()];
                 self.modulus = Modulus::default();
-                self.found = Some((views.pivots, views.minor));
+                self.found = Some(views.minor);
                 attempt = 1;
             }
             let Some(inverse) = inverse_of(&self.modulus, f) else {
@@ -203,7 +196,7 @@ impl<'a> Kernel<'a> {
                 let vectors = self.current_vectors();
                 self.operations += self.cost_of_checking(&vectors);
                 self.within_budget()?;
-                if let Some((_, minor)) = &self.found
+                if let Some(minor) = &self.found
                     && let Some(done) = confirm(minor.clone(), vectors)?
                 {
                     return Ok(done);
@@ -248,7 +241,7 @@ impl<'a> Kernel<'a> {
     /// Reconstructs the open numbers, as far as the budget allows.
     fn settle_numbers(&mut self) -> Result<(), NoCertificate> {
         let primes = self.modulus.primes() as u64;
-        let pivots = self.found.as_ref().map_or(0, |(p, _)| p.columns.len());
+        let pivots = self.found.as_ref().map_or(0, |m| m.columns.len());
         let of_vector = (pivots * self.field.ring().dimension()).max(1);
         let mut failures = 0;
         for vector in self.unknowns.chunks_mut(of_vector) {
@@ -289,7 +282,7 @@ impl<'a> Kernel<'a> {
             let image = self.kernel_image(f, &monomials)?;
             if images
                 .first()
-                .is_some_and(|first| first.pivots.columns != image.pivots.columns)
+                .is_some_and(|first| first.columns != image.columns)
             {
                 return None;
             }
@@ -310,18 +303,17 @@ impl<'a> Kernel<'a> {
                 *o = f.sum_of_products(terms.map(|(image, &c)| (c, image.entries[i])));
             }
         }
-        let (rank, columns) = (images[0].pivots.columns.len(), self.matrix.columns());
+        let (rank, columns) = (images[0].columns.len(), self.matrix.columns());
         self.operations += (degree * (self.matrix.rows() * rank * columns + count * degree)) as u64;
         let plain = |r: &Residue| f.to_u64(*r);
-        let pivots = images.swap_remove(0).pivots;
+        let first = images.swap_remove(0);
         Some(Views {
             minor: Minor {
                 prime: f.modulus(),
                 images: splitting.homomorphisms[0].iter().map(plain).collect(),
-                rows: pivots.rows.clone(),
-                columns: pivots.columns.clone(),
+                rows: first.rows,
+                columns: first.columns,
             },
-            pivots,
             coordinates,
         })
     }
@@ -343,17 +335,15 @@ impl<'a> Kernel<'a> {
             .flat_map(|free| reduced.iter().map(move |row| f.neg(row[free])))
             .collect();
         Some(Image {
-            pivots: Pivots {
-                rows: independent,
-                columns,
-            },
+            rows: independent,
+            columns,
             entries,
         })
     }
 
     /// Returns the vectors in their current state.
     fn current_vectors(&self) -> Vec<KernelVector> {
-        let Some((pivots, _)) = &self.found else {
+        let Some(minor) = &self.found else {
             return Vec::new();
         };
         let degree = self.field.ring().dimension();
@@ -365,9 +355,9 @@ impl<'a> Kernel<'a> {
             .unknowns
             .chunks(degree)
             .map(|c| Element::new(c.iter().map(value).collect()));
-        free_columns(&pivots.columns, self.matrix.columns())
+        free_columns(&minor.columns, self.matrix.columns())
             .map(|free| {
-                let mut entries: Vec<(usize, Element)> = pivots
+                let mut entries: Vec<(usize, Element)> = minor
                     .columns
                     .iter()
                     .copied()

@@ -1,12 +1,13 @@
 //! Rank over a prime field.
 
 use crate::closure::Closure;
-use crate::geom::exact::ExactField;
+use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::field::closure_of;
 use crate::rank::method::{Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ};
+use std::borrow::Cow;
 
 /// Returns the rank of J over the field. It is exact unless the prime divides a minor.
 ///
@@ -17,6 +18,40 @@ use crate::rank::method::{Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ};
 pub fn rank_modulo(exact: &ExactField, closure: &Closure<Residue>) -> usize {
     let columns = closure.dense_columns(exact);
     echelon::rank_of(exact.field(), columns.iter().map(Vec::as_slice))
+}
+
+/// A mechanism in a state, with its J in an exact field and the rank of J.
+#[derive(Debug)]
+pub(in crate::rank) struct ExactState<'a> {
+    pub(in crate::rank) exact: &'a ExactField,
+    pub(in crate::rank) mechanism: &'a Mechanism,
+    pub(in crate::rank) closure: Cow<'a, Closure<Residue>>,
+    pub(in crate::rank) rank: usize,
+}
+
+impl<'a> ExactState<'a> {
+    /// Computes J of a state and its rank.
+    ///
+    /// # Errors
+    /// Returns an error if a coordinate has no value in the field.
+    pub(in crate::rank) fn new(
+        exact: &'a ExactField,
+        mechanism: &'a Mechanism,
+        state: StateId,
+    ) -> Result<Self, ExactError> {
+        let closure = Closure::new(exact, mechanism, state)?;
+        Ok(ExactState {
+            exact,
+            mechanism,
+            rank: rank_modulo(exact, &closure),
+            closure: Cow::Owned(closure),
+        })
+    }
+
+    /// Returns the instantaneous mobility, f - rank J.
+    pub(in crate::rank) fn mobility(&self) -> usize {
+        self.closure.columns.len() - self.rank
+    }
 }
 
 /// [`rank_modulo`] as a method.

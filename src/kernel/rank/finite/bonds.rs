@@ -18,6 +18,7 @@ use crate::closure::Closure;
 use crate::closure::tree::spanning_forest;
 use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::rigid::split_twist;
 use crate::linalg::echelon::{Echelon, linear_combination, linear_relations, rank_of};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{LinkId, Mechanism, Mode};
@@ -194,30 +195,39 @@ impl Bonds<'_> {
         true
     }
 
-    /// Replaces two single groups between the same links by their intersection.
-    fn side_by_side(&mut self) -> bool {
-        let single = |c: &Chain| {
-            c.parts.len() <= 1 && !c.is_closed() && c.parts.iter().all(BondPart::is_group)
-        };
+    /// Replaces two chains between the same links by one with the given parts, the first two for which there are any.
+    fn merge_parallel(
+        &mut self,
+        merged: impl Fn(&Self, &Chain, &Chain) -> Option<Vec<BondPart>>,
+    ) -> bool {
         for b in 0..self.chains.len() {
             for a in 0..b {
-                let (x, y) = (&self.chains[a], &self.chains[b]);
-                let alike = x.ends == y.ends || x.ends == [y.ends[1], y.ends[0]];
-                if !(alike && single(x) && single(y)) {
-                    continue;
+                let (one, other) = (&self.chains[a], self.chains[b].clone());
+                let same_way = other.ends == one.ends;
+                let other = if same_way { other } else { other.reversed() };
+                if other.ends == one.ends
+                    && !one.is_closed()
+                    && let Some(parts) = merged(self, one, &other)
+                {
+                    self.chains[a].parts = parts;
+                    self.chains.remove(b);
+                    return true;
                 }
-                let parts = match (&x.parts[..], &y.parts[..]) {
-                    ([a], [b]) => vec![BondPart::from_group(intersect_spans(
-                        self.exact, &a.span, &b.span,
-                    ))],
-                    _ => Vec::new(),
-                };
-                self.chains[a].parts = parts;
-                self.chains.remove(b);
-                return true;
             }
         }
         false
+    }
+
+    /// Replaces two single groups between the same links by their intersection.
+    fn side_by_side(&mut self) -> bool {
+        let single = |c: &Chain| c.parts.len() <= 1 && c.parts.iter().all(BondPart::is_group);
+        self.merge_parallel(|bonds, x, y| {
+            let both = || match (&x.parts[..], &y.parts[..]) {
+                ([a], [b]) => Some(intersect_spans(bonds.exact, &a.span, &b.span)),
+                _ => None,
+            };
+            (single(x) && single(y)).then(|| both().map(BondPart::from_group).into_iter().collect())
+        })
     }
 
     /// Returns the algebra that some parts span together, if the span is an algebra and contains all their
@@ -248,28 +258,11 @@ pub(in crate::rank) fn intersect_spans(exact: &ExactField, a: &[Twist], b: &[Twi
 impl Bonds<'_> {
     /// Replaces two bars of a parallelogram by one part that slides on a circle.
     fn replace_parallelogram(&mut self) -> bool {
-        for b in 0..self.chains.len() {
-            for a in 0..b {
-                let other = &self.chains[b];
-                let other = match other.clone() {
-                    c if c.ends == self.chains[a].ends => c,
-                    c => c.reversed(),
-                };
-                if let Some(part) = self.circular_slide(&self.chains[a], &other) {
-                    self.chains[a].parts = vec![part];
-                    self.chains.remove(b);
-                    return true;
-                }
-            }
-        }
-        false
+        self.merge_parallel(|bonds, a, b| Some(vec![bonds.circular_slide(a, b)?]))
     }
 
-    /// Returns the slide on a circle of two chains that are bars of a parallelogram.
+    /// Returns the slide on a circle of two chains between the same links that are bars of a parallelogram.
     fn circular_slide(&self, a: &Chain, b: &Chain) -> Option<BondPart> {
-        if a.ends != b.ends || a.is_closed() {
-            return None;
-        }
         let [near, far] = self.hinge_twists(a)?;
         let [near_too, far_too] = self.hinge_twists(b)?;
         let field = self.exact.field();
@@ -297,10 +290,7 @@ impl Bonds<'_> {
             let [twist] = &part.span[..] else {
                 return None;
             };
-            let (w, v) = (
-                [twist[0], twist[1], twist[2]],
-                [twist[3], twist[4], twist[5]],
-            );
+            let (w, v) = split_twist(twist);
             let of = w.into_iter().find(|&x| x != 0)?;
             let hinge = part.is_group() && self.exact.dot(w, v) == 0;
             let scale = field.inv(of);

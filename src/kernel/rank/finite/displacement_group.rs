@@ -9,11 +9,12 @@
 //! of dimension f - rank J. So the instantaneous mobility is proven to be the finite one, for any σ. Couplings are
 //! additional linear maps of the joints' coordinates, and the rank of their rows is added to the product.
 
+use crate::closure::Closure;
 use crate::closure::contour::Contour;
 use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
-use crate::closure::{Closure, Column};
 use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::rigid::{join_twist, split_twist};
 use crate::linalg::echelon::{Echelon, linear_combination, linear_relations};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::Freedom;
@@ -26,13 +27,12 @@ pub(in crate::rank) fn lie_bracket(
     a: &[Residue],
     b: &[Residue],
 ) -> Vec<Residue> {
-    let three = |t: &[Residue], at: usize| [t[at], t[at + 1], t[at + 2]];
-    let (wa, va, wb, vb) = (three(a, 0), three(a, 3), three(b, 0), three(b, 3));
+    let ((wa, va), (wb, vb)) = (split_twist(a), split_twist(b));
     let w = exact.cross(wa, wb);
     let (p, q) = (exact.cross(wa, vb), exact.cross(va, wb));
     let field = exact.field();
     let v = [0, 1, 2].map(|i| field.add(p[i], q[i]));
-    vec![w[0], w[1], w[2], v[0], v[1], v[2]]
+    join_twist(w, v).to_vec()
 }
 
 /// Returns true if the successive displacements of some independent twists are all those of a group.
@@ -50,13 +50,13 @@ pub(in crate::rank) fn spatial_twists(
     joint: JointId,
 ) -> Result<Vec<Vec<Residue>>, ExactError> {
     let joint = &mechanism.joints[joint];
-    let values = FrameValues::new(exact, &joint.frame)?;
-    Ok(joint
-        .joint_type
-        .freedoms()
-        .iter()
-        .map(|&f| values.twist_of(exact, f).to_vec())
-        .collect())
+    let twists = joint_twists(
+        exact,
+        &MotionSpace::Spatial,
+        &joint.frame,
+        &joint.joint_type,
+    )?;
+    Ok(twists.into_iter().map(|(_, t)| t).collect())
 }
 
 /// Returns the freedoms of a joint with their twists, in the order of passage from its first link.
@@ -65,12 +65,11 @@ pub(in crate::rank) fn passed_twists(
     mechanism: &Mechanism,
     joint: JointId,
 ) -> Result<Vec<(Freedom, Vec<Residue>)>, ExactError> {
-    let twists = spatial_twists(exact, mechanism, joint)?;
-    let joint_type = &mechanism.joints[joint].joint_type;
-    let order = joint_type.freedoms_in_series();
-    let mut passed: Vec<_> = joint_type.freedoms().iter().copied().zip(twists).collect();
-    passed.sort_by_key(|(f, _)| order.iter().position(|g| g == f));
-    Ok(passed)
+    let joint = &mechanism.joints[joint];
+    let frame = FrameValues::new(exact, &joint.frame)?;
+    let freedoms = joint.joint_type.freedoms();
+    let passed = frame.motions_in_series(exact, &MotionSpace::Spatial, freedoms);
+    Ok(passed.into_iter().map(|(f, t)| (f, t.to_vec())).collect())
 }
 
 /// Returns the dimension of the group that a contour's displacements generate. It is at most 3 in planar mode.
@@ -173,18 +172,10 @@ impl DisplacementGroup {
     /// combinations of these, the same for every column, so the rank is unchanged.
     #[must_use]
     pub fn rows_of(&self, closure: &Closure<Residue>) -> Closure<Residue> {
-        Closure {
-            dim: self.dimension,
-            columns: closure
-                .columns
-                .iter()
-                .map(|c| Column {
-                    twist: self.pivots.iter().map(|&p| c.twist[p]).collect(),
-                    ..c.clone()
-                })
-                .collect(),
-            ..closure.clone()
-        }
+        closure.with_twists(self.dimension, |c| {
+            let twist = &closure.columns[c].twist;
+            self.pivots.iter().map(|&p| twist[p]).collect()
+        })
     }
 
     /// Returns the dimension, at most 6.
@@ -282,7 +273,7 @@ pub(in crate::rank) fn group_of(
     let slides: Vec<[Residue; 3]> = linear_relations(field, &parts)
         .iter()
         .map(|factors| linear_combination(field, &basis, factors))
-        .map(|t| [t[3], t[4], t[5]])
+        .map(|t| split_twist(&t).1)
         .collect();
     let axis = turns
         .reduced_rows()
@@ -292,7 +283,10 @@ pub(in crate::rank) fn group_of(
     let across = slides.iter().all(|&v| exact.dot(v, axis) == 0);
     // Slides across the axis do not affect the slide coupled to a turn. An independent slide along the axis allows a
     // turn with any pitch.
-    let along = |t: &Vec<Residue>| exact.dot([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
+    let along = |t: &Vec<Residue>| {
+        let (w, v) = split_twist(t);
+        exact.dot(w, v)
+    };
     let screws = turns.rank() == 1 && across && basis.iter().any(|t| along(t) != 0);
     Ok(DisplacementGroup {
         dimension: basis.len(),

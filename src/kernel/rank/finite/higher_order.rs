@@ -19,13 +19,11 @@ mod line;
 pub use line::Line;
 
 use crate::closure::Closure;
-use crate::closure::twist::MotionSpace;
-use crate::geom::Scalars;
+use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::geom::exact::{ExactError, ExactField};
-use crate::linalg::echelon::Echelon;
+use crate::linalg::echelon::{Echelon, transpose};
 use crate::linalg::modp::{Field, Residue};
-use crate::model::mechanism::Mechanism;
-use crate::motion::pose::Pose;
+use crate::model::mechanism::{JointId, Mechanism};
 use crate::rank::finite::higher_order::line::{Expansion, Solved};
 use crate::rank::finite::power_series::Monomials;
 
@@ -60,7 +58,6 @@ impl HigherOrder {
         exact: &ExactField,
         mechanism: &Mechanism,
         closure: &Closure<Residue>,
-        pose: &Pose,
         rank: usize,
     ) -> Result<Option<HigherOrder>, ExactError> {
         let field = exact.field();
@@ -70,13 +67,39 @@ impl HigherOrder {
             return Ok(None);
         }
         let space = MotionSpace::new(exact, &mechanism.mode)?;
-        let twists: Vec<Vec<Residue>> = closure
-            .columns
-            .iter()
-            .map(|c| in_space(exact, &space, &c.twist))
-            .collect();
-        let walks = contour_walks(closure, pose);
-        let span = Echelon::from_vectors(field, beside_unit(field, closure, &twists, &walks));
+        let mut twists = vec![Vec::new(); f];
+        // The columns of each joint, in the order of passage.
+        let mut passed = vec![Vec::new(); mechanism.joints.len()];
+        for j in mechanism.joints_in(closure.state) {
+            let joint = &mechanism.joints[j];
+            let frame = FrameValues::new(exact, &joint.frame)?;
+            let freedoms = joint.joint_type.freedoms();
+            for (freedom, twist) in frame.motions_in_series(exact, &space, freedoms) {
+                let mut columns = closure.columns.iter();
+                if let Some(c) = columns.position(|c| (c.joint, c.freedom) == (j, freedom)) {
+                    twists[c] = twist.to_vec();
+                    passed[j].push(c);
+                }
+            }
+        }
+        let walk = |&(j, forward): &(JointId, bool)| {
+            let mut own = passed[j].clone();
+            if !forward {
+                own.reverse();
+            }
+            own.into_iter().map(move |c| (c, forward))
+        };
+        let contours = closure.contours.iter();
+        let walks = contours.map(|c| c.joints.iter().flat_map(walk).collect());
+        let walks: Vec<Vec<(usize, bool)>> = walks.collect();
+        // [J | 1]
+        let in_space = closure.with_twists(6, |c| twists[c].clone());
+        let mut beside_unit = transpose(&in_space.dense_columns(exact));
+        for (i, row) in beside_unit.iter_mut().enumerate() {
+            row.resize(f + rows, field.zero());
+            row[f + i] = field.one();
+        }
+        let span = Echelon::from_vectors(field, beside_unit);
         // Pivots beyond J belong to its dependent rows.
         let mut pivots = span.pivots();
         pivots.retain(|&p| p < f);
@@ -234,75 +257,4 @@ fn unrelated_numbers(field: Field) -> impl FnMut() -> Residue {
         random ^= random >> 27;
         field.from_i64((random.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 2) as i64)
     }
-}
-
-/// Converts a twist of a motion space to all six components.
-fn in_space(exact: &ExactField, space: &MotionSpace<Residue>, twist: &[Residue]) -> Vec<Residue> {
-    let field = exact.field();
-    match space {
-        MotionSpace::Spatial => twist.to_vec(),
-        MotionSpace::Planar { axes } => {
-            // Components are scalar products with orthogonal axes, which are not of unit length.
-            let along = |k: usize| {
-                let axis = axes[k];
-                let share = field.mul(twist[k], field.inv(exact.dot(axis, axis)));
-                axis.map(|x| field.mul(share, x))
-            };
-            let (w, a, b) = (along(0), along(1), along(2));
-            let v = [0, 1, 2].map(|i| field.add(a[i], b[i]));
-            [w, v].concat()
-        }
-    }
-}
-
-/// Returns the contours as columns with their directions, within a joint in the order of the poses.
-fn contour_walks(closure: &Closure<Residue>, pose: &Pose) -> Vec<Vec<(usize, bool)>> {
-    let order = |c: usize| {
-        let column = &closure.columns[c];
-        pose.columns
-            .iter()
-            .position(|p| (p.joint, p.freedom) == (column.joint, column.freedom))
-    };
-    let walks = closure.contours.iter().map(|contour| {
-        let mut walk = Vec::new();
-        for &(j, forward) in &contour.joints {
-            let columns = 0..closure.columns.len();
-            let mut own: Vec<usize> = columns.filter(|&c| closure.columns[c].joint == j).collect();
-            own.sort_by_key(|&c| order(c));
-            if !forward {
-                own.reverse();
-            }
-            walk.extend(own.into_iter().map(|c| (c, forward)));
-        }
-        walk
-    });
-    walks.collect()
-}
-
-/// Returns [J | 1].
-fn beside_unit(
-    field: Field,
-    closure: &Closure<Residue>,
-    twists: &[Vec<Residue>],
-    walks: &[Vec<(usize, bool)>],
-) -> Vec<Vec<Residue>> {
-    let f = closure.columns.len();
-    let rows = 6 * walks.len() + closure.couplings.len();
-    let mut matrix = vec![vec![0; f + rows]; rows];
-    for (k, walk) in walks.iter().enumerate() {
-        for &(c, forward) in walk {
-            for (i, &t) in twists[c].iter().enumerate() {
-                matrix[6 * k + i][c] = if forward { t } else { field.neg(t) };
-            }
-        }
-    }
-    for (row, coupling) in matrix[6 * walks.len()..].iter_mut().zip(&closure.couplings) {
-        for &(c, x) in &coupling.entries {
-            row[c] = x;
-        }
-    }
-    for (i, row) in matrix.iter_mut().enumerate() {
-        row[f + i] = field.one();
-    }
-    matrix
 }

@@ -55,6 +55,12 @@ pub(crate) fn independent_parts<T>(closure: &Closure<T>) -> Vec<Vec<JointId>> {
     connected_sets(of_contours.chain(of_couplings))
 }
 
+/// Returns the number of freedoms of joints that belong to none of the parts, and so move freely.
+pub(crate) fn count_outside<T>(closure: &Closure<T>, parts: &[Vec<JointId>]) -> usize {
+    let inside = |j: JointId| parts.iter().any(|p| p.contains(&j));
+    closure.columns.iter().filter(|c| !inside(c.joint)).count()
+}
+
 /// Returns a mechanism with only some of the joints, numbered as before. Its frame is one of their links.
 #[must_use]
 pub(crate) fn with_joints_only(mechanism: &Mechanism, joints: &[JointId]) -> Mechanism {

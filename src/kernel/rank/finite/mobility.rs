@@ -6,13 +6,12 @@
 //! with such freedoms locked. An example is the spatial slider of a planar linkage that could turn about its guide, but
 //! does not.
 
-use crate::closure::Closure;
-use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::exact::ExactError;
 use crate::linalg::echelon::{Echelon, transpose};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, Mechanism};
-use crate::rank::exact::modular;
+use crate::rank::exact::modular::ExactState;
 use crate::rank::finite::bonds;
 use crate::rank::finite::displacement_group::group_dimension;
 use itertools::Itertools;
@@ -298,55 +297,40 @@ impl Finite {
 }
 
 /// Returns what ranks alone prove: that nothing moves, or that all instantaneous motions are finite.
-pub(super) fn by_ranks(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    closure: &Closure<Residue>,
-    rank: usize,
-) -> Result<Option<Finite>, ExactError> {
-    let instantaneous = closure.columns.len() - rank;
-    if instantaneous == 0 {
+pub(super) fn by_ranks(at: &ExactState<'_>) -> Result<Option<Finite>, ExactError> {
+    if at.mobility() == 0 {
         return Ok(Some(Finite::new(0, How::Rigid)));
     }
-    let dimension = group_dimensions(exact, mechanism, closure)?;
-    Ok((rank == dimension).then_some(Finite::regular_pose(instantaneous, rank, Proof::Groups)))
+    let regular = Finite::regular_pose(at.mobility(), at.rank, Proof::Groups);
+    Ok((at.rank == group_dimensions(at)?).then_some(regular))
 }
 
 /// Returns the dimension of the groups that all contours move in, and of the couplings.
-pub(super) fn group_dimensions(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    closure: &Closure<Residue>,
-) -> Result<usize, ExactError> {
+pub(super) fn group_dimensions(at: &ExactState<'_>) -> Result<usize, ExactError> {
     // Couplings are linear in the joints' coordinates, so dependent ones stay dependent all along the motion.
-    let couplings = closure.couplings.iter().map(|coupling| {
-        let mut row = vec![0; closure.columns.len()];
+    let couplings = at.closure.couplings.iter().map(|coupling| {
+        let mut row = vec![0; at.closure.columns.len()];
         coupling.entries.iter().for_each(|&(c, x)| row[c] = x);
         row
     });
-    let mut dimension = Echelon::from_vectors(exact.field(), couplings).rank();
-    for contour in &closure.contours {
-        dimension += group_dimension(exact, mechanism, contour)?;
+    let mut dimension = Echelon::from_vectors(at.exact.field(), couplings).rank();
+    for contour in &at.closure.contours {
+        dimension += group_dimension(at.exact, at.mechanism, contour)?;
     }
     Ok(dimension)
 }
 
 /// Works as [`by_ranks`], also with the freedoms locked that are at rest to first order, and with chains and legs
 /// reduced to single joints.
-pub(super) fn prove_regular(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    closure: &Closure<Residue>,
-    rank: usize,
-) -> Result<Option<Finite>, ExactError> {
-    if let Some(known) = by_ranks(exact, mechanism, closure, rank)? {
+pub(super) fn prove_regular(at: &ExactState<'_>) -> Result<Option<Finite>, ExactError> {
+    if let Some(known) = by_ranks(at)? {
         return Ok(Some(known));
     }
-    let instantaneous = closure.columns.len() - rank;
-    let moving = match lock_resting(exact, mechanism, closure) {
+    let instantaneous = at.mobility();
+    let moving = match lock_resting(at) {
         Some(locked) => {
-            let own = Closure::new(exact, &locked, closure.state)?;
-            if let Some(found) = by_ranks(exact, &locked, &own, modular::rank_modulo(exact, &own))?
+            let own = ExactState::new(at.exact, &locked, at.closure.state)?;
+            if let Some(found) = by_ranks(&own)?
                 && let How::Submersion { dimension, .. } = found.how
                 && found.mobility == instantaneous
             {
@@ -356,24 +340,21 @@ pub(super) fn prove_regular(
                     Proof::Resting,
                 )));
             }
-            bonds::mobility_by_bonds(exact, &locked, &own)?
+            bonds::mobility_by_bonds(at.exact, &locked, &own.closure)?
         }
-        None => bonds::mobility_by_bonds(exact, mechanism, closure)?,
+        None => bonds::mobility_by_bonds(at.exact, at.mechanism, &at.closure)?,
     };
     // The motion with freedoms locked is a lower bound, and the instantaneous motion an upper one.
     let moving = moving.filter(|&m| m == instantaneous);
-    Ok(moving.map(|m| Finite::regular_pose(m, rank, Proof::Bonds)))
+    Ok(moving.map(|m| Finite::regular_pose(m, at.rank, Proof::Bonds)))
 }
 
 /// Returns the mechanism with every freedom locked that rests in all instantaneous motions, or `None` if none does.
 ///
 /// # Complexity
 /// One elimination of J by rows, O((6k)² f).
-fn lock_resting(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    closure: &Closure<Residue>,
-) -> Option<Mechanism> {
+fn lock_resting(at: &ExactState<'_>) -> Option<Mechanism> {
+    let (exact, mechanism, closure) = (at.exact, at.mechanism, &at.closure);
     let rows = Echelon::from_vectors(exact.field(), transpose(&closure.dense_columns(exact)));
     // A row of the reduced form with no entry other than its pivot means that this freedom has speed 0.
     let alone = |row: &Vec<Residue>| row.iter().positions(|&x| x != 0).exactly_one().ok();

@@ -34,8 +34,7 @@ use crate::linalg::echelon::{Echelon, transpose};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism};
-use crate::motion::pose::Pose;
-use crate::rank::exact::modular;
+use crate::rank::exact::modular::ExactState;
 use crate::rank::finite::displacement_group::{group_dimension, spatial_twists};
 use crate::rank::finite::higher_order::{HigherOrder, Line, ORDER};
 use crate::rank::finite::independent_parts::with_joints_only;
@@ -51,12 +50,8 @@ const ORDERS: usize = 6;
 ///
 /// # Complexity
 /// A few eliminations of J, and products of classes. A product has as many terms as sets of freedoms are open at a time.
-fn highest_order(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    closure: &Closure<Residue>,
-    instantaneous: usize,
-) -> Result<Option<usize>, ExactError> {
+fn highest_order(at: &ExactState<'_>) -> Result<Option<usize>, ExactError> {
+    let (exact, closure) = (at.exact, &*at.closure);
     let freedoms = closure.columns.len();
     let screws = closure.columns.iter().any(|c| c.freedom == Freedom::Screw);
     if screws || !closure.couplings.is_empty() || freedoms > MOST {
@@ -67,12 +62,12 @@ fn highest_order(
         .iter()
         .map(|c| cut_into_arcs(closure, c))
         .collect();
-    if let Some(order) = bound_of_rods(exact, mechanism, closure, instantaneous)? {
+    if let Some(order) = bound_of_rods(at)? {
         return Ok(Some(order));
     }
     if let [alone] = &arcs[..] {
         // All equations, including those that cut further freedoms off, belong to one bundle.
-        let inside = alone.count_freedoms() == freedoms;
+        let inside = alone.iter().map(Vec::len).sum::<usize>() == freedoms;
         let class = inside.then(|| Class::unit_class().times_all(alone, freedoms));
         return Ok(class
             .flatten()
@@ -80,7 +75,7 @@ fn highest_order(
     }
     let mut dimensions = Vec::new();
     for contour in &closure.contours {
-        dimensions.push(group_dimension(exact, mechanism, contour)?);
+        dimensions.push(group_dimension(exact, at.mechanism, contour)?);
     }
     let rows = transpose(&closure.dense_columns(exact));
     let all = arcs.len();
@@ -94,7 +89,7 @@ fn highest_order(
             &order,
             &added,
             freedoms,
-            instantaneous - 1,
+            at.mobility() - 1,
         );
         least = [least, found].into_iter().flatten().min();
     }
@@ -111,7 +106,7 @@ fn cut_into_arcs(closure: &Closure<Residue>, contour: &Contour) -> Arcs {
         (0..closure.columns.len()).filter(here).collect()
     };
     let (one, other) = contour.joints.split_at(contour.joints.len() / 2);
-    Arcs::new(of(one), of(other))
+    [of(one), of(other)]
 }
 
 /// Returns what each contour adds to the rank, in the given order.
@@ -163,27 +158,7 @@ const MOST: usize = 64;
 const TERMS: usize = 100_000;
 
 /// The two arcs of a contour, each a set of freedoms.
-#[derive(Debug, Clone)]
-struct Arcs {
-    one: Vec<usize>,
-    other: Vec<usize>,
-}
-
-impl Arcs {
-    fn new(one: Vec<usize>, other: Vec<usize>) -> Arcs {
-        Arcs { one, other }
-    }
-
-    /// Returns the number of freedoms in both arcs.
-    fn count_freedoms(&self) -> usize {
-        self.one.len() + self.other.len()
-    }
-
-    fn freedom_set(&self) -> u64 {
-        let all = self.one.iter().chain(&self.other);
-        all.fold(0, |set, &v| set | 1 << v)
-    }
-}
+type Arcs = [Vec<usize>; 2];
 
 /// A class: the multiplicity of each product of different h, by their sets.
 #[derive(Debug, Clone)]
@@ -224,8 +199,8 @@ impl Class {
         let mut other = self.clone();
         let mut all = self;
         for _ in 0..n {
-            other = other.times_sum(&arcs.other);
-            all = Class::collect_terms([all.times_sum(&arcs.one).0, other.0.clone()].concat());
+            other = other.times_sum(&arcs[1]);
+            all = Class::collect_terms([all.times_sum(&arcs[0]).0, other.0.clone()].concat());
             if all.0.len() > TERMS {
                 return None;
             }
@@ -240,7 +215,8 @@ impl Class {
         freedoms: usize,
         cut: usize,
     ) -> Class {
-        let open = later.fold(0, |set, arcs| set | arcs.freedom_set());
+        let open = later.flatten().flatten();
+        let open = open.fold(0, |set, &v| set | 1 << v);
         let gone = all_freedoms(freedoms) & !open;
         self.0
             .retain(|(set, _)| (gone & !set).count_ones() as usize <= cut);
@@ -262,23 +238,19 @@ fn all_freedoms(freedoms: usize) -> u64 {
 }
 
 /// Returns the highest order that can stop a platform on rods, or `None` for other mechanisms.
-fn bound_of_rods(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    closure: &Closure<Residue>,
-    instantaneous: usize,
-) -> Result<Option<usize>, ExactError> {
+fn bound_of_rods(at: &ExactState<'_>) -> Result<Option<usize>, ExactError> {
+    let (mechanism, state) = (at.mechanism, at.closure.state);
     let (mut rods, mut bodies) = (0, 0);
     for link in mechanism.link_ids() {
-        let joints: Vec<JointId> = mechanism.joints_at(link, closure.state).collect();
+        let joints: Vec<JointId> = mechanism.joints_at(link, state).collect();
         match joints[..] {
             [] => {}
-            [a, b] if is_rod(exact, mechanism, [a, b])? => rods += 1,
+            [a, b] if is_rod(at.exact, mechanism, [a, b])? => rods += 1,
             _ => bodies += 1,
         }
     }
-    let platform = bodies == 2 && mechanism.joints_in(closure.state).count() == 2 * rods;
-    let power = u32::try_from(instantaneous).ok();
+    let platform = bodies == 2 && mechanism.joints_in(state).count() == 2 * rods;
+    let power = u32::try_from(at.mobility()).ok();
     let power = power.and_then(|n| 8u32.checked_sub(n)).filter(|_| platform);
     Ok(power.map(|p| 1 << p))
 }
@@ -315,17 +287,9 @@ pub(super) struct Expanded {
 }
 
 impl Expanded {
-    pub(super) fn new(
-        exact: &ExactField,
-        mechanism: &Mechanism,
-        closure: &Closure<Residue>,
-        pose: &Pose,
-        rank: usize,
-    ) -> Result<Expanded, ExactError> {
-        let series = HigherOrder::new(exact, mechanism, closure, pose, rank)?;
-        let instantaneous = closure.columns.len() - rank;
-        let bound = highest_order(exact, mechanism, closure, instantaneous)?;
-        let bound = bound.filter(|&order| order <= HIGHEST);
+    pub(super) fn new(at: &ExactState<'_>) -> Result<Expanded, ExactError> {
+        let series = HigherOrder::new(at.exact, at.mechanism, &at.closure, at.rank)?;
+        let bound = highest_order(at)?.filter(|&order| order <= HIGHEST);
         let order = bound.unwrap_or(0).max(ORDER);
         let line = series.as_ref().map(|s| s.random_line(order));
         Ok(Expanded {
@@ -350,31 +314,24 @@ impl Expanded {
 ///
 /// # Complexity
 /// One proof per contour, if their ranks add up to that of J.
-pub(super) fn are_apart(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    closure: &Closure<Residue>,
-    rank: usize,
-) -> Result<bool, ExactError> {
+pub(super) fn are_apart(at: &ExactState<'_>) -> Result<bool, ExactError> {
+    let closure = &at.closure;
     if closure.contours.len() < 2 || !closure.couplings.is_empty() {
         return Ok(false);
     }
-    let mut each = Vec::new();
-    for contour in &closure.contours {
+    let part = |contour: &Contour| {
         let joints: Vec<_> = contour.joints.iter().map(|&(j, _)| j).collect();
-        let part = with_joints_only(mechanism, &joints);
-        let own = Closure::new(exact, &part, closure.state)?;
-        let rank = modular::rank_modulo(exact, &own);
-        each.push((part, own, rank));
-    }
-    if each.iter().map(|(_, _, rank)| rank).sum::<usize>() != rank {
+        with_joints_only(at.mechanism, &joints)
+    };
+    let parts: Vec<Mechanism> = closure.contours.iter().map(part).collect();
+    let each = parts.iter();
+    let each = each.map(|part| ExactState::new(at.exact, part, closure.state));
+    let each: Vec<ExactState<'_>> = each.collect::<Result<_, _>>()?;
+    if each.iter().map(|own| own.rank).sum::<usize>() != at.rank {
         return Ok(false);
     }
-    for (part, own, rank) in &each {
-        let proven = prove_regular(exact, part, own, *rank)?.is_some()
-            || Expanded::new(exact, part, own, &Pose::of_file(part, own.state)?, *rank)?
-                .is_never_stopped();
-        if !proven {
+    for own in &each {
+        if prove_regular(own)?.is_none() && !Expanded::new(own)?.is_never_stopped() {
             return Ok(false);
         }
     }
@@ -389,12 +346,12 @@ mod tests {
     #[test]
     fn numbers_by_hand() {
         for (n, expected) in [(1, 1), (2, 4), (3, 36), (4, 576)] {
-            let arcs = Arcs::new((0..n).collect(), (n..2 * n).collect());
+            let arcs = [(0..n).collect(), (n..2 * n).collect()];
             let class = Class::unit_class().times_all(&arcs, 2 * n).unwrap();
             assert_eq!(class.intersection_number(2 * n, 0), Some(expected));
         }
         // A curve of four hinges cut by the sum of all t: (S² T + S T²)(S + T) = 2 S² T², and S² = T² = 2 of two h each.
-        let arcs = Arcs::new(vec![0, 1], vec![2, 3]);
+        let arcs = [vec![0, 1], vec![2, 3]];
         let class = Class::unit_class().times_all(&arcs, 3).unwrap();
         assert_eq!(class.intersection_number(4, 1), Some(8));
         let none = class.without_lost(std::iter::empty(), 4, 0);

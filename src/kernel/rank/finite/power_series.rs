@@ -91,11 +91,8 @@ impl Monomials {
         work: usize,
     ) -> Option<bool> {
         let degree = self.degree();
-        let mut independent = Echelon::new(f);
-        for s in series.iter().filter(|s| s.iter().any(|&x| x != 0)) {
-            independent.insert(s);
-        }
-        let rows = independent.reduced_rows();
+        let nonzero = series.iter().filter(|s| s.iter().any(|&x| x != 0));
+        let rows = Echelon::from_vectors(f, nonzero).reduced_rows();
         let shifts = |row: &[Residue]| {
             let order = row.iter().position(|&x| x != 0).unwrap_or(0);
             let own = (0..=degree)

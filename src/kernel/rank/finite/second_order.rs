@@ -16,15 +16,15 @@
 //! begins with an odd power, which finds cusps. Motions of more freedoms are excluded by power series in a random
 //! subspace (`higher_order`).
 
-use crate::closure::Closure;
 use crate::closure::twist::MotionSpace;
 use crate::geom::Reals;
-use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::exact::ExactError;
 use crate::linalg::echelon::{linear_combination, linear_relations};
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::model::rounded::Uncertainties;
 use crate::motion::pose::Pose;
+use crate::rank::exact::modular::ExactState;
 use crate::rank::finite::higher_order::{HigherOrder, Line, ORDER};
 use crate::rank::finite::mobility::{Finite, How, group_dimensions};
 use crate::rank::finite::tangent_cone::{
@@ -221,22 +221,19 @@ impl SecondOrder {
 /// # Complexity
 /// O(n²) expansions to second order, and one of a line.
 pub(super) fn mobility_at_singular(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    closure: &Closure<Residue>,
-    rank: usize,
+    at: &ExactState<'_>,
     pose: &Pose,
     series: &HigherOrder,
     stopped: usize,
 ) -> Result<Option<Finite>, ExactError> {
-    let n = closure.columns.len() - rank;
+    let n = at.mobility();
     let flat = Flat::new(pose, Some(n));
     let quadrics = Quadrics::new(pose, &flat);
     if quadrics.is_definite() {
         let (order, motions) = (2, n);
         return Ok(Some(Finite::new(0, How::Stopped { order, motions })));
     }
-    let equations = group_dimensions(exact, mechanism, closure)? - rank;
+    let equations = group_dimensions(at)? - at.rank;
     if equations == 0 || equations >= n {
         return Ok(None);
     }

@@ -7,7 +7,12 @@ use crate::rank::finite::displacement_group::{GroupKind, whole_group};
 use crate::rank::method::{Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ, to_i64};
 
 /// Returns `dim`·(n - 1) - Σ (`dim` - f_i) over the joints of a state, less one for each coupling. `freedoms` is Σ f_i.
-fn count_mobility(mechanism: &Mechanism, state: StateId, dim: i64, freedoms: usize) -> i64 {
+pub(crate) fn count_mobility(
+    mechanism: &Mechanism,
+    state: StateId,
+    dim: i64,
+    freedoms: usize,
+) -> i64 {
     let links = mechanism.links_in(state).count();
     let constraints = dim * to_i64(mechanism.joints_in(state).count()) - to_i64(freedoms);
     dim * (to_i64(links).max(1) - 1) - constraints - to_i64(mechanism.couplings_in(state).count())

@@ -12,7 +12,7 @@
 //!
 //! The result holds for the given pose and geometry. Rows without motion here may have motion in another pose.
 
-use crate::closure::{Closure, Column};
+use crate::closure::Closure;
 use crate::format::count_noun;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
@@ -345,18 +345,10 @@ fn fallen_apart(
     }
     let part = |i: usize| {
         let used = all[i].pivots();
-        let seen = |c: &Column<Residue>| {
-            let t = twist_in_rows(f, &rows[i], &c.twist);
-            Column {
-                twist: used.iter().map(|&r| t[r]).collect(),
-                ..c.clone()
-            }
-        };
-        Closure {
-            dim: used.len(),
-            columns: closure.columns.iter().map(seen).collect(),
-            ..closure.clone()
-        }
+        closure.with_twists(used.len(), |c| {
+            let t = twist_in_rows(f, &rows[i], &closure.columns[c].twist);
+            used.iter().map(|&r| t[r]).collect()
+        })
     };
     Some([part(0), part(1)])
 }

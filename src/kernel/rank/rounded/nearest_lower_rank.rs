@@ -50,12 +50,8 @@ fn move_coordinates(m: &Mechanism, of: &[Coordinate], by: &[f64]) -> Option<Mech
     let mut out = m.clone();
     for (c, x) in of.iter().zip(by) {
         let frame = &mut out.parts_mut().joints[c.joint].frame;
-        let vector = match c.vector {
-            0 => &mut frame.point,
-            1 => &mut frame.axis,
-            _ => &mut frame.reference,
-        };
-        vector[c.component] = Expr::from_f64(c.written + x * 2.0 * c.half).ok()?;
+        frame.vectors_mut()[c.vector][c.component] =
+            Expr::from_f64(c.written + x * 2.0 * c.half).ok()?;
     }
     Some(out)
 }

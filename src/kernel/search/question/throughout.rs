@@ -19,7 +19,6 @@ use crate::linalg::modp::{Field, Residue};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
 use crate::motion::displacement_series::{DisplacementSeries, Series, shifted_multiples};
-use crate::motion::pose::Pose;
 use crate::rank::exact::modular;
 use crate::rank::finite::higher_order::HigherOrder;
 use crate::search::question::conditions::Conditions;
@@ -252,9 +251,8 @@ impl Motion {
     ) -> Result<Result<Motion, PoseOnly>, ExactError> {
         let field = exact.field();
         let closure = Closure::new(exact, mechanism, StateId::FREE)?;
-        let pose = Pose::of_file(mechanism, StateId::FREE)?;
         let rank = modular::rank_modulo(exact, &closure);
-        let Some(series) = HigherOrder::new(exact, mechanism, &closure, &pose, rank)? else {
+        let Some(series) = HigherOrder::new(exact, mechanism, &closure, rank)? else {
             return Ok(Err(PoseOnly::TooLarge));
         };
         let (_, free) = series.free_coordinates();

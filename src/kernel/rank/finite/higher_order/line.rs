@@ -4,6 +4,7 @@
 //! the coordinates contribute J times themselves to the gaps of that order. So each order costs one pass along the
 //! contours, and a series of order D about D² products, whereas a new expansion at every order costs D³.
 
+use crate::geom::rigid::split_twist;
 use crate::linalg::modp::{Field, Residue};
 
 /// Maximum number of products.
@@ -55,10 +56,7 @@ struct SeriesTerm {
 
 impl FreedomPassed {
     fn new(f: Field, twist: &[Residue], column: usize, forward: bool) -> FreedomPassed {
-        let (w, v) = (
-            [twist[0], twist[1], twist[2]],
-            [twist[3], twist[4], twist[5]],
-        );
+        let (w, v) = split_twist(twist);
         let once = cross(f, w, v);
         FreedomPassed {
             column,
