@@ -1,7 +1,8 @@
 //! Small systems of equations solved in place, without a new matrix for each.
 
-/// Number of entries that are processed at once.
+/// Number of entries that are processed at once, and of right sides.
 const LANES: usize = 4;
+const PAIR: usize = 2;
 
 /// A square matrix with right sides.
 #[derive(Debug, Clone, Default)]
@@ -17,7 +18,7 @@ impl SmallSystem {
     /// Creates a system of `size` unknowns and `sides` right sides, all zero.
     #[must_use]
     pub fn new(size: usize, sides: usize) -> SmallSystem {
-        let width = (size + sides).next_multiple_of(LANES);
+        let width = (size + sides.next_multiple_of(PAIR)).next_multiple_of(LANES);
         SmallSystem {
             size,
             sides,
@@ -95,15 +96,16 @@ impl SmallSystem {
     pub fn solve_all(&mut self) -> Option<f64> {
         let sign = self.eliminate_below()?;
         let (n, w) = (self.size, self.width);
-        for c in (0..n).rev() {
-            let (above, own) = self.entries.split_at_mut(c * w);
-            for side in n..n + self.sides {
-                own[side] /= own[c];
-            }
-            for row in above.chunks_exact_mut(w) {
-                let factor = row[c];
-                for (x, o) in row[n..].iter_mut().zip(&own[n..w]) {
-                    *x -= factor * o;
+        for side in (n..n + self.sides).step_by(PAIR) {
+            for c in (0..n).rev() {
+                let (above, own) = self.entries.split_at_mut(c * w);
+                let found: [f64; PAIR] = std::array::from_fn(|k| own[side + k] / own[c]);
+                own[side..side + PAIR].copy_from_slice(&found);
+                for row in above.chunks_exact_mut(w) {
+                    let factor = row[c];
+                    let right = &mut row[side..side + PAIR];
+                    (right[0], right[1]) =
+                        (right[0] - factor * found[0], right[1] - factor * found[1]);
                 }
             }
         }

@@ -377,6 +377,9 @@ impl<'s, 'a> Annealing<'s, 'a> {
         }
         // Accepted if exp((now - then) / heat) is above a random number. The evaluation stops as soon as the cost is too high.
         let most = self.now - heat * random_unit(&mut self.random).ln();
+        if self.at == self.before {
+            return;
+        }
         match self.place_cost(judge, look, most) {
             Some(then) => {
                 self.now = then;

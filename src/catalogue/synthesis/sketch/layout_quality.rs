@@ -96,7 +96,8 @@ impl Bones {
                     penalty += 4.0 * beyond_limit(near - square.sqrt(), near);
                 }
                 // Pins level with each other, or right above each other, have an axis in common. This special place costs redesigns.
-                if i < self.joints.len() && !self.follows[i] && !self.follows[j] {
+                let in_line = apart.iter().any(|x| x.abs() < ALIGNED);
+                if in_line && i < self.joints.len() && !self.follows[i] && !self.follows[j] {
                     penalty += apart
                         .iter()
                         .map(|x| 0.5 * beyond_limit(ALIGNED - x.abs(), ALIGNED))
@@ -217,16 +218,17 @@ impl Bones {
         DEAR * (beyond_limit((ratio / limits.ratio).ln(), 0.1) + over) + 0.01 * crossings
     }
 
-    /// Returns the figures of the motion for a unit speed of the driver, with their cost if each jaw needs a least force.
+    /// Returns the figures of the motion for a unit speed of the driver, with their cost if each jaw needs a least force. `velocity_of` gives
+    /// the velocity of a link.
     pub(in crate::synthesis) fn motion_cost(
         &self,
         at: &[Point],
-        velocities: &[Velocity],
+        velocity_of: impl Fn(usize) -> Velocity,
         least_force: f64,
     ) -> LayoutMotion {
         let jaws = self.jaws.iter().zip(&self.tips);
-        let tips: Vec<Point> = jaws
-            .map(|(&j, tip)| velocities[j].velocity_at(*tip))
+        let mut tips: Vec<Point> = jaws
+            .map(|(&j, tip)| velocity_of(j).velocity_at(*tip))
             .collect();
         let closing = tips.iter().zip(&self.inward).map(|(v, i)| dot(*v, *i));
         let (sum, all) = (
@@ -244,9 +246,10 @@ impl Bones {
         } else {
             0.0
         };
+        tips.iter_mut().flatten().for_each(|x| *x *= sum.signum());
         let mut out = LayoutMotion {
             closing: sum.abs() / pairs,
-            tips: tips.iter().map(|v| v.map(|x| sum.signum() * x)).collect(),
+            tips,
             penalty: 0.0,
         };
         let even = (fastest / slowest.max(1e-9 * fastest)).max(1.0).ln();
@@ -260,11 +263,11 @@ impl Bones {
         };
         let drive = out.closing / unit;
         out.penalty += beyond_limit((drive.max(1e-9) / wanted).ln().abs() - 0.9, 0.5).min(20.0);
-        let turning = velocities.iter().map(|v| v.turning.abs());
+        let turning = (0..self.of_link.len()).map(|l| velocity_of(l).turning.abs());
         let turning = turning.fold(0.0, f64::max);
         out.penalty += beyond_limit(turning * 40.0 / out.closing.max(1e-9) - 2.0, 1.5).min(20.0);
         let rods = self.rods.iter();
-        let sines = rods.map(|(l, ends)| transmission_sine(&velocities[*l], ends.map(|i| at[i])));
+        let sines = rods.map(|(l, ends)| transmission_sine(&velocity_of(*l), ends.map(|i| at[i])));
         out.penalty += beyond_limit(40.0 - angle_degrees(sines.fold(1.0, f64::min)), 20.0);
         out
     }

@@ -13,6 +13,10 @@ pub(crate) const ON: f64 = 6.0;
 /// Smallest distance of a pin from the opposite side of the same link, in mm. Below it the link is a splinter.
 const SPLINTER: f64 = 10.0;
 
+/// Maximum number of sides, and the number of them that are processed at once.
+const MOST_SIDES: usize = 64;
+const LANES: usize = 8;
+
 /// The cost of a pin within a plate that it does not belong to.
 const WITHIN: f64 = 3.0;
 
@@ -47,10 +51,17 @@ impl LinkSide {
 
 /// Returns true if a link with these sides, a bar or a plate, lies over a point.
 pub(crate) fn lies_over(sides: &[LinkSide], at: &[Point], point: Point) -> bool {
-    let near = |side: &LinkSide| side_distance(point, side.places(at)) < ON;
-    let left = |side: &LinkSide| {
+    let area = |side: &LinkSide| {
         let [a, b] = side.places(at);
-        cross_plane(sub(b, a), sub(point, a)) > 0.0
+        cross_plane(sub(b, a), sub(point, a))
+    };
+    let left = |side: &LinkSide| area(side) > 0.0;
+    let near = |side: &LinkSide| {
+        let ends = side.places(at);
+        let along = sub(ends[1], ends[0]);
+        // Most points are far from the line through both ends.
+        let far = area(side).powi(2) > 1.01 * ON.powi(2) * dot(along, along);
+        !far && side_distance(point, ends) < ON
     };
     let within = sides.len() > 2 && sides.iter().map(left).all_equal();
     within || sides.iter().any(near)
@@ -72,6 +83,8 @@ struct SideSeen {
     penalty: f64,
     /// The sides that it crosses, as bits: the links of 32 points have at most 64 sides.
     crossed: u64,
+    /// The sides that it could cross: those of other links without a common end.
+    apart: u64,
 }
 
 impl SideSeen {
@@ -85,24 +98,37 @@ impl SideSeen {
             foreign: 0,
             penalty: 0.0,
             crossed: 0,
+            apart: 0,
         }
     }
 
-    /// Evaluates some points again.
-    fn look_again(&mut self, bones: &Bones, at: &[Point], moved: impl Iterator<Item = usize>) {
+    /// Evaluates the points that have moved: all of them if an end has.
+    fn look_again(&mut self, bones: &Bones, at: &[Point], moved: u32) {
         let [a, b] = self.side.places(at);
         let along = sub(b, a);
         let members = bones.members[self.side.link];
         let reach = |p: usize| if members >> p & 1 == 1 { SPLINTER } else { ON };
         // Squared distance from the line through both ends, by the area of the triangle.
         let square = dot(along, along).max(1e-9);
-        let (mut looked_at, was_near) = (0, self.near);
-        for p in moved {
-            let area = cross_plane(along, sub(at[p], a));
-            let bit = 1 << p;
-            looked_at |= bit;
-            self.left = self.left & !bit | u32::from(area > 0.0) << p;
-            self.near = self.near & !bit | u32::from(area * area < reach(p).powi(2) * square) << p;
+        let [on, splinter] = [ON, SPLINTER].map(|reach| reach.powi(2) * square);
+        let (mut looked_at, was_near) = (moved, self.near);
+        if self.ends & moved != 0 {
+            looked_at = u32::MAX;
+            let (mut left, mut near, mut nearer) = (0, 0, 0);
+            for p in at.iter().rev() {
+                let area = cross_plane(along, sub(*p, a));
+                left = left << 1 | u32::from(area > 0.0);
+                near = near << 1 | u32::from(area * area < splinter);
+                nearer = nearer << 1 | u32::from(area * area < on);
+            }
+            (self.left, self.near) = (left, near & members | nearer & !members);
+        } else {
+            for p in set_bits(moved) {
+                let (area, bit) = (cross_plane(along, sub(at[p], a)), 1 << p);
+                let least = if members & bit == 0 { on } else { splinter };
+                self.left = self.left & !bit | u32::from(area > 0.0) << p;
+                self.near = self.near & !bit | u32::from(area * area < least) << p;
+            }
         }
         self.near &= !self.at_ends;
         for p in set_bits(self.near & looked_at) {
@@ -118,12 +144,18 @@ impl SideSeen {
         }
     }
 
-    /// Returns true if two sides of different links cross without a common end.
-    fn crosses(&self, other: &SideSeen) -> bool {
+    /// Returns the sides that it crosses, given the points on the left of each side, and the ends of each.
+    fn sides_crossed(&self, left: &[u32], ends: &[u32]) -> u64 {
         let parts = |left: u32, ends: u32| (left & ends != 0) & (left & ends != ends);
-        let apart = (self.side.link != other.side.link) & (self.at_ends & other.ends == 0);
-        // Evaluating all conditions is faster than branching.
-        apart & parts(self.left, other.ends) & parts(other.left, self.ends)
+        let (left, _) = left.as_chunks::<LANES>();
+        let (ends, _) = ends.as_chunks::<LANES>();
+        let all = left.iter().zip(ends).rev().fold(0, |all, (left, ends)| {
+            // Evaluating all conditions is faster than branching.
+            let cross = |k: usize| parts(self.left, ends[k]) & parts(left[k], self.ends);
+            let bits: [u32; LANES] = std::array::from_fn(|k| u32::from(cross(k)) << k);
+            all << LANES | u64::from(bits.iter().fold(0, |some, bit| some | bit))
+        });
+        all & self.apart
     }
 }
 
@@ -141,28 +173,31 @@ impl SeenPlaces {
             return u32::MAX;
         }
         let both = self.at.iter().zip(at).enumerate();
-        both.fold(0, |bits, (p, (was, is))| bits | u32::from(was != is) << p)
+        // Words are compared faster than numbers.
+        let words = |place: &Point| place.map(f64::to_bits);
+        both.fold(0, |bits, (p, (was, is))| {
+            bits | u32::from(words(was) != words(is)) << p
+        })
     }
 
     /// Updates the sides for new places, from which the points in `moved` differ.
     fn look(&mut self, bones: &Bones, at: &[Point], moved: u32) {
         let mut again = 0_u64;
         for (i, seen) in self.sides.iter_mut().enumerate() {
-            if seen.ends & moved == 0 {
-                seen.look_again(bones, at, set_bits(moved));
-            } else {
-                seen.look_again(bones, at, 0..at.len());
-                again |= 1 << i;
-            }
+            seen.look_again(bones, at, moved);
+            again |= u64::from(seen.ends & moved != 0) << i;
         }
+        let (mut left, mut ends) = ([0; MOST_SIDES], [0; MOST_SIDES]);
+        for (i, seen) in self.sides.iter().enumerate() {
+            (left[i], ends[i]) = (seen.left, seen.ends);
+        }
+        let count = self.sides.len().next_multiple_of(LANES);
         // If neither of two sides has moved, their crossing is unchanged.
         while again != 0 {
             let i = again.trailing_zeros() as usize;
             again &= again - 1;
-            let own = self.sides[i];
-            let others = self.sides.iter().rev();
-            let crossed = others.fold(0, |bits, other| bits << 1 | u64::from(own.crosses(other)));
-            let mut changed = own.crossed ^ crossed;
+            let crossed = self.sides[i].sides_crossed(&left[..count], &ends[..count]);
+            let mut changed = self.sides[i].crossed ^ crossed;
             self.sides[i].crossed = crossed;
             while changed != 0 {
                 self.sides[changed.trailing_zeros() as usize].crossed ^= 1 << i;
@@ -210,6 +245,13 @@ impl SeenSides {
             let sides = self.sides.iter();
             let afresh = sides.map(|side| SideSeen::new(*side, &bones.together));
             now.sides.extend(afresh);
+            for i in 0..now.sides.len() {
+                let own = now.sides[i];
+                let apart =
+                    |s: &SideSeen| s.side.link != own.side.link && own.at_ends & s.ends == 0;
+                let all = now.sides.iter().rev();
+                now.sides[i].apart = all.fold(0, |bits, s| bits << 1 | u64::from(apart(s)));
+            }
             now.look(bones, at, u32::MAX);
         }
         let sides = now.sides.iter();
@@ -267,7 +309,7 @@ fn jaw_crossings(bones: &Bones, sides: &[SideSeen]) -> u32 {
 }
 
 /// Returns the indices of the bits that are set.
-fn set_bits(mut set: u32) -> impl Iterator<Item = usize> {
+pub(crate) fn set_bits(mut set: u32) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let first = (set != 0).then(|| set.trailing_zeros() as usize);
         set &= set.wrapping_sub(1);
@@ -277,9 +319,11 @@ fn set_bits(mut set: u32) -> impl Iterator<Item = usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::{ON, SeenSides, SideSeen, pins_within, side_distance};
+    use super::{
+        LinkSide, ON, SeenSides, SideSeen, crosses, lies_over, pins_within, side_distance,
+    };
     use crate::synthesis::sketch::each_classic;
-    use crate::synthesis::{random_below, random_for};
+    use crate::synthesis::{random_below, random_for, random_unit};
     use itertools::Itertools;
 
     /// Moves accepted and rejected in any order give the same result as a new evaluation: only moved points are evaluated again.
@@ -301,6 +345,45 @@ mod tests {
                 }
             }
         });
+    }
+
+    /// Each pair of sides of different links without a common end, by the places of their ends.
+    #[test]
+    fn sides_cross_as_their_ends_say() {
+        each_classic(|name, sketch| {
+            let mut random = random_for(name, 4, 0);
+            let (at, mut seen) = (sketch.first_places(&mut random), SeenSides::default());
+            let (at, bones) = sketch.drawn_points(&at);
+            seen.crossing_cost(bones, &at);
+            let sides = seen.seen[0].sides.iter().enumerate();
+            for ((i, x), (j, y)) in sides.tuple_combinations() {
+                let apart = x.side.link != y.side.link && x.at_ends & y.ends == 0;
+                let cross = apart && crosses(x.side.places(&at), y.side.places(&at));
+                assert_eq!(
+                    [x.crossed >> j & 1, y.crossed >> i & 1],
+                    [u64::from(cross); 2]
+                );
+            }
+        });
+    }
+
+    /// By the distance from each side, however far the line through its ends is.
+    #[test]
+    fn a_link_lies_over_points_that_are_near() {
+        let mut random = random_for("bar", 5, 0);
+        let mut place = || [0, 1].map(|_| 40.0 * random_unit(&mut random));
+        let counts = (0..2000).map(|_| {
+            let at = [place(), place()];
+            let bar = [0, 1].map(|end| LinkSide {
+                link: 0,
+                ends: [end, 1 - end],
+            });
+            let point = place();
+            let near = side_distance(point, at) < ON;
+            assert_eq!(lies_over(&bar[..1], &at, point), near);
+            near
+        });
+        assert!((200..1800).contains(&counts.filter(|near| *near).count()));
     }
 
     /// A line to the right of a pin within a plate crosses its outline an odd number of times.

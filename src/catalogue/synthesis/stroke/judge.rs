@@ -7,7 +7,6 @@ use super::planes::{Meetings, Stacking};
 use super::pose::LinkPose;
 use super::walk::{SETTLED, StrokeEnd};
 use crate::geom::vector::{dot, length, sub};
-use crate::synthesis::equations::velocities::Velocity;
 use crate::synthesis::place::Point;
 use crate::synthesis::places::Places;
 use crate::synthesis::sketch::Sketch;
@@ -170,14 +169,13 @@ impl<'a> Judge<'a> {
         }
         self.motion.write_pose(at, &mut self.links);
         let rate = self.drive_rate();
-        let velocities = self.links.iter().map(|pose| pose.velocity.divided_by(rate));
-        let velocities: Vec<Velocity> = velocities.collect();
+        let velocity_of = |link: usize| self.links[link].velocity.divided_by(rate);
         let sketch = self.motion.sketch;
         let least_force = sketch.limits.task.least_force;
         Some(
             sketch
                 .bones
-                .motion_cost(&at.points, &velocities, least_force),
+                .motion_cost(&at.points, velocity_of, least_force),
         )
     }
 

@@ -8,7 +8,7 @@
 use crate::geom::vector::{length, sub};
 use crate::synthesis::place::Point;
 use crate::synthesis::sketch::bones::Bones;
-use crate::synthesis::sketch::seen_sides::{LinkSide, ON, crosses, lies_over};
+use crate::synthesis::sketch::seen_sides::{LinkSide, ON, crosses, lies_over, set_bits};
 use itertools::Itertools;
 use std::cmp::{Reverse, max, min};
 use std::fmt;
@@ -115,14 +115,18 @@ impl Meetings {
             }
         }
         for (p, &place) in at.iter().enumerate() {
-            let of: Vec<usize> = match p.checked_sub(pins) {
-                None => bones.joints[p].into_iter().flatten().collect(),
-                Some(tip) => vec![bones.jaws[tip]],
+            let of: Links = match p.checked_sub(pins) {
+                None => bones.joints[p]
+                    .iter()
+                    .flatten()
+                    .fold(0, |of, l| of | 1 << l),
+                Some(tip) => 1 << bones.jaws[tip],
             };
+            let moving = of & !(1 << bones.frame);
             for sides in sides.chunk_by(|x, y| x.link == y.link) {
                 let link = sides[0].link;
                 // The contact point of pitch circles is on no link.
-                let apart = !of.is_empty() && !of.contains(&link);
+                let apart = of != 0 && of >> link & 1 == 0;
                 if !apart || !lies_over(sides, at, place) {
                     continue;
                 }
@@ -131,9 +135,7 @@ impl Meetings {
                     .iter()
                     .any(|&q| bones.together[p] >> q & 1 == 1)
                 {
-                    for &own in of.iter().filter(|l| ![**l, link].contains(&bones.frame)) {
-                        self.overlap(own, link);
-                    }
+                    set_bits(moving).for_each(|own| self.overlap(own, link));
                     continue;
                 }
                 if let Some(tip) = p.checked_sub(pins) {
@@ -144,9 +146,7 @@ impl Meetings {
                     continue;
                 }
                 self.over[p] |= 1 << link;
-                for &own in of.iter().filter(|l| **l != bones.frame) {
-                    self.overlap(own, link);
-                }
+                set_bits(moving).for_each(|own| self.overlap(own, link));
             }
         }
     }

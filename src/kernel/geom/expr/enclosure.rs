@@ -232,7 +232,42 @@ impl Enclosure {
         }
         // With this exponent and any larger one the number is infinite.
         let e = e.min(1100);
+        if mid.bits() < 1000 && e > -1000 {
+            // The nearest double of the midpoint, which a power of two scales exactly.
+            let near = mid.to_f64().unwrap_or(f64::NAN) * 2f64.powi(e as i32);
+            if near.abs() > f64::MIN_POSITIVE {
+                return near;
+            }
+        }
         let exact = BigRational::new_raw(mid << e.max(0), BigInt::one() << (-e).max(0));
         exact.to_f64().unwrap_or(f64::NAN)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Enclosure;
+    use num_bigint::BigInt;
+
+    /// A longer number of the same value is rounded bit by bit.
+    #[test]
+    fn short_and_long_numbers_have_the_same_double() {
+        let odd = [1_i64 << 53, 1 << 54, 1 << 60, i64::MAX - 2000];
+        let near = odd.into_iter().flat_map(|n| (-9..=9).map(move |by| n + by));
+        for n in near.flat_map(|n| [n, -n, 3 * (n >> 2)]).map(BigInt::from) {
+            let of = |n: &BigInt, e| {
+                Enclosure {
+                    lo: n.clone(),
+                    hi: n.clone(),
+                    e,
+                }
+                .to_f64()
+            };
+            for e in [-900, -1, 0, 70] {
+                assert_eq!(of(&n, e), of(&(&n << 1100), e - 1100), "{n}");
+            }
+            let tail: BigInt = (&n << 150) + 1;
+            assert_eq!(of(&tail, -150), of(&(&tail << 1000), -1150), "{tail}");
+        }
     }
 }

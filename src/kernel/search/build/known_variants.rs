@@ -5,7 +5,7 @@
 
 use crate::search::build::self_stress::{Wanted, diagram_limits};
 use crate::search::build::spanning_halves::Halves;
-use crate::search::build::spanning_pairs::{Bases, ZeroForms};
+use crate::search::build::spanning_pairs::{Bases, WalkMemory, ZeroForms};
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
 use crate::search::diagram::stage::Stage;
@@ -13,7 +13,6 @@ use crate::search::diagram::{DEAD, Diagram, Expanded, Layer, Stop, next_layer};
 use crate::search::question::Question;
 use crate::search::question::space::{Choice, Space};
 use itertools::Itertools;
-use std::collections::BTreeSet;
 
 /// Returns true if every variant of a diagram is determinate in a question. Returns false if not, if the diagram or the question allows
 /// redundant constraints that not every variant has, or if it takes more nodes than the budget allows.
@@ -38,10 +37,10 @@ pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> bool {
         })
 }
 
-/// The spaces that known variants lead to from one end, and their pairs with the nodes of the known diagram.
+/// The spaces that known variants lead to from one end, and their pairs with the nodes of the known diagram, each once.
 struct End {
     spaces: Nodes,
-    reached: BTreeSet<(usize, usize)>,
+    reached: Vec<(usize, usize)>,
 }
 
 /// Follows the variants of some layers, which end at `ends` nodes, through a part. Returns `None` if one of them is not determinate.
@@ -78,17 +77,17 @@ fn part_has_all(
     }
     let rows = halves.meeting_rows(part, layers.len() - to);
     // A space is at several nodes.
-    let front_rows = (0..front.spaces.len()).map(|space| rows.front_rows(&front.spaces, space));
-    let zero_forms = front_rows.map(|own| ZeroForms::new(halves.field, &own, rows.width()));
+    let zero_forms = rows.all_rows(0, &front.spaces);
+    let zero_forms = zero_forms.map(|own| ZeroForms::new(halves.field, &own, rows.width()));
     let zero_forms = zero_forms.collect_vec();
-    let back_rows = (0..back.spaces.len()).map(|space| rows.back_rows(&back.spaces, space));
-    let back_rows = back_rows.collect_vec();
+    let back_rows = rows.all_rows(1, &back.spaces).collect_vec();
+    let mut memory = WalkMemory::default();
     let [of_front, of_back] = [&front, &back].map(|end| end.spaces_at(nodes_at(to)));
     for (front_spaces, back_spaces) in of_front.iter().zip(of_back) {
         let own = back_spaces.iter().map(|&space| &back_rows[space][..]);
         let bases = Bases::new(halves.field, own, false, false);
         for &space in front_spaces {
-            let found = bases.completing_nodes(&zero_forms[space]);
+            let found = bases.completing_nodes(&zero_forms[space], &mut memory);
             let count: u32 = found.iter().map(|word| word.count_ones()).sum();
             if (count as usize) < back_spaces.len() {
                 return None;
@@ -136,7 +135,9 @@ impl End {
             let to = merge.edges[edge];
             (to != DEAD).then_some((to as usize, node))
         };
-        let reached = taken.into_iter().map(step).collect::<Option<_>>()?;
+        let mut reached = taken.into_iter().map(step).collect::<Option<Vec<_>>>()?;
+        reached.sort_unstable();
+        reached.dedup();
         (merge.stop == Stop::Exhausted).then_some(End {
             spaces: merge.next,
             reached,

@@ -8,7 +8,7 @@ use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::search::build::matching_halves::{Grouped, count_lookups, match_halves};
 use crate::search::build::self_stress::{Wanted, flat_stages, self_stress_space};
-use crate::search::build::spanning_pairs::{Bases, ZeroForms};
+use crate::search::build::spanning_pairs::{Bases, WalkMemory, ZeroForms};
 use crate::search::diagram::layer::Nodes;
 use crate::search::diagram::node_sets::{
     Numbered, Set, add_node, completing_sets, empty_set, nodes_in,
@@ -135,18 +135,19 @@ impl<'a> Halves<'a> {
     ) -> Option<(Vec<u32>, Vec<Set>)> {
         let packed = self.meeting_rows(part, halves.stages);
         let width = packed.width();
-        let rows_of_front = |node| packed.front_rows(halves.front, node);
-        let rows_of_back = |node| packed.back_rows(halves.back, node);
-        let back: Vec<_> = (0..halves.back.len()).map(rows_of_back).collect();
+        let rows_of_front = |node| {
+            let nodes = halves.front;
+            packed.rows_of(0, nodes, node, &mut Arithmetic::new(self.field))
+        };
+        let back: Vec<_> = packed.all_rows(1, halves.back).collect();
         let pairs = halves
             .groups
             .iter()
             .map(|[f, b]| f.len().saturating_mul(b.len()));
         let pairs = pairs.fold(0, usize::saturating_add);
         let grouped = self.keeps.then(|| {
-            let front = (0..halves.front.len()).map(rows_of_front);
             [
-                Grouped::group_nodes(front),
+                Grouped::group_nodes(packed.all_rows(0, halves.front)),
                 Grouped::group_nodes(back.iter().cloned()),
             ]
         });
@@ -166,7 +167,7 @@ impl<'a> Halves<'a> {
             let bases = Bases::new(self.field, rows, self.keeps, halves.spanned);
             let completing = |n: usize| {
                 let forms = ZeroForms::new(self.field, &rows_of_front(fronts[n]), width);
-                let own = bases.completing_nodes(&forms);
+                let own = bases.completing_nodes(&forms, &mut WalkMemory::default());
                 let mut set = empty_set(back.len());
                 nodes_in(&own).for_each(|node| add_node(&mut set, backs[node]));
                 set
@@ -185,11 +186,13 @@ impl<'a> Halves<'a> {
         let is_live = |c: &usize| self.contours[*c].is_live_before(meeting);
         let live: Vec<usize> = (0..self.contours.len()).filter(is_live).collect();
         let turned: Vec<usize> = self.turned.iter().copied().filter(is_live).collect();
-        let place = |c: &usize| turned.iter().position(|x| x == c);
+        let place = |c: &usize| live.iter().position(|x| x == c);
+        let mut places: Vec<usize> = turned.iter().filter_map(place).collect();
+        places.extend(self.keeps.then_some(live.len()));
         PackedRows {
             field: self.field,
-            keeps: self.keeps,
-            places: live.iter().filter_map(place).collect(),
+            width: live.len() + 1,
+            places: [(0..places.len()).collect(), places],
         }
     }
 }
@@ -245,42 +248,43 @@ fn turn_space(space: &SelfStressSpace) -> (SelfStressSpace, Vec<usize>) {
 /// The rows of nodes where both halves of a part meet.
 pub(in crate::search) struct PackedRows {
     field: Field,
-    /// Whether vectors have a number for the motion of kept links.
-    keeps: bool,
-    /// The place of each coordinate of contours that both halves reach, in the rows of the back.
-    places: Vec<usize>,
+    width: usize,
+    /// The coordinate of each packed number of the front and of the back.
+    places: [Vec<usize>; 2],
 }
 
 impl PackedRows {
     /// Returns the number of coordinates of contours that both halves reach, and one of kept links.
     pub(in crate::search) fn width(&self) -> usize {
-        self.places.len() + 1
+        self.width
     }
 
-    /// Returns the rows of a node of the front, with a number of kept links behind the coordinates of contours: 0 if vectors have none.
-    pub(in crate::search) fn front_rows(&self, nodes: &Nodes, node: usize) -> Vec<Vec<Residue>> {
-        let packed = self.width() - usize::from(!self.keeps);
-        let mut rows = Rows::default();
-        rows.unpack_rows(
-            &mut Arithmetic::new(self.field),
-            packed,
-            nodes.packed_rows(node),
-        );
+    /// Returns the rows of a node of the front, or of the back if `end` is 1, as a reduced basis. They have a number of kept links behind the
+    /// coordinates of contours: 0 if vectors have none.
+    fn rows_of(
+        &self,
+        end: usize,
+        nodes: &Nodes,
+        node: usize,
+        arithmetic: &mut Arithmetic,
+    ) -> Vec<Vec<Residue>> {
+        let (places, mut rows) = (&self.places[end], Rows::default());
+        rows.unpack_spread(arithmetic, places.len(), places, nodes.packed_rows(node));
         let widened = rows.rows().map(|row| {
-            let mut row = row.to_vec();
-            row.resize(self.width(), 0);
-            row
+            let mut out = vec![0; self.width];
+            out[..row.len()].copy_from_slice(row);
+            out
         });
         widened.collect()
     }
 
-    /// Returns the rows of a node of the back in the same coordinates, as a reduced basis.
-    pub(in crate::search) fn back_rows(&self, nodes: &Nodes, node: usize) -> Vec<Vec<Residue>> {
-        let from_back = |row: Vec<Residue>| -> Vec<Residue> {
-            let own = self.places.iter().map(|&at| row[at]);
-            own.chain([row[self.places.len()]]).collect()
-        };
-        let rows = self.front_rows(nodes, node).into_iter().map(from_back);
-        Echelon::from_vectors(self.field, rows).reduced_rows()
+    /// Returns the rows of all nodes of an end.
+    pub(in crate::search) fn all_rows(
+        &self,
+        end: usize,
+        nodes: &Nodes,
+    ) -> impl Iterator<Item = Vec<Vec<Residue>>> {
+        let mut arithmetic = Arithmetic::new(self.field);
+        (0..nodes.len()).map(move |node| self.rows_of(end, nodes, node, &mut arithmetic))
     }
 }

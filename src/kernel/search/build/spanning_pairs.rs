@@ -6,11 +6,9 @@
 //! beginning are examined together, so most pairs take one sum of products. One more form includes the motion of kept links.
 //! It must be zero on each row that is not new, because no combination may move only kept links.
 
-use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::search::diagram::node_sets::{Set, add_node, empty_set};
 use hashbrown::HashMap;
-use std::borrow::Cow;
 use std::ops::Range;
 
 /// A row that bases with the same rows before it have in common, in a list where it is followed by all rows that come after it in one of
@@ -60,16 +58,20 @@ impl Bases {
             })
         };
         // The last rows have few numbers that are not zero, so that more bases have them in common.
-        let mut all: Vec<(Vec<usize>, usize)> = Vec::new();
-        let mut width = 0;
-        for (node, rows) in bases.into_iter().enumerate() {
+        let (mut numbers, mut counts, mut width) = (Vec::new(), Vec::new(), 0);
+        for rows in bases {
             width = rows.first().map_or(width, Vec::len);
-            all.push((
-                rows.iter().rev().map(|row| number(&row[..])).collect(),
-                node,
-            ));
+            numbers.extend(rows.iter().rev().map(|row| number(&row[..])));
+            counts.push(rows.len());
         }
-        all.sort_by(|(a, _), (b, _)| (a.len(), a).cmp(&(b.len(), b)));
+        let mut left = &numbers[..];
+        let own = counts.iter().enumerate().map(|(node, &count)| {
+            let (own, others) = left.split_at(count);
+            left = others;
+            (own, node)
+        });
+        let mut all: Vec<(&[usize], usize)> = own.collect();
+        all.sort_unstable_by_key(|&(own, node)| (own.len(), own, node));
         let mut out = Bases {
             field,
             width,
@@ -90,7 +92,7 @@ impl Bases {
     }
 
     /// Appends the items of bases with the same rows before row `at`, the first of which is number `first`.
-    fn push_items(&mut self, bases: &[(Vec<usize>, usize)], at: usize, mut first: usize) {
+    fn push_items(&mut self, bases: &[(&[usize], usize)], at: usize, mut first: usize) {
         if bases[0].0.len() == at {
             return;
         }
@@ -107,28 +109,40 @@ impl Bases {
         }
     }
 
-    /// Returns the nodes that complete a node of the front, on which these forms are zero.
+    /// Returns the nodes that complete a node of the front, on which these forms are zero. `memory` may be that of another walk.
     ///
     /// # Complexity
     /// O(e·w) field operations for e different beginnings of bases and w coordinates. O(e·w²) if most rows are not the last ones.
-    pub(super) fn completing_nodes(&self, front: &ZeroForms) -> Set {
+    pub(super) fn completing_nodes(&self, front: &ZeroForms, memory: &mut WalkMemory) -> Set {
         let (width, open) = (front.width, front.count);
         let forms = &front.numbers;
         // What the forms are on a vector has fewer numbers than the vector, but takes as long as some items.
         let vectors = self.vectors.chunks_exact(self.width.max(1));
-        let mut walk = if vectors.len() * open < 2 * self.items.len() {
-            let forms = forms.chunks_exact(width);
-            let of_vector = |v| forms.clone().map(move |form| self.field.dot(form, v));
-            let images = Cow::Owned(vectors.flat_map(of_vector).collect());
-            let levels = (0..open).map(|rank| Forms::sparse(open, rank));
-            let mut levels: Vec<Forms> = levels.collect();
+        let sparse = vectors.len() * open < 2 * self.items.len();
+        let WalkMemory { images, levels } = memory;
+        levels.resize_with(levels.len().max(open), Forms::default);
+        let levels = &mut levels[..open];
+        for (rank, level) in levels.iter_mut().enumerate() {
+            level.resize_to(open, rank, if sparse { rank + 1 } else { width }, sparse);
+        }
+        let (vectors, width) = if sparse {
+            images.clear();
+            for v in vectors {
+                let forms = forms.chunks_exact(width);
+                images.extend(forms.map(|form| self.field.dot(form, v)));
+            }
             levels[0].numbers.fill(self.field.one());
-            Walk::new(self, images, open, levels)
+            (&images[..], open)
         } else {
-            let levels = (0..open).map(|rank| Forms::dense(open, rank, width));
-            let mut levels: Vec<Forms> = levels.collect();
             levels[0].numbers.clone_from(forms);
-            Walk::new(self, Cow::Borrowed(&self.vectors), width, levels)
+            (&self.vectors[..], width)
+        };
+        let mut walk = Walk {
+            of: self,
+            vectors,
+            width,
+            levels,
+            found: empty_set(self.nodes.len()),
         };
         let mut start = 0;
         for &(rows, end) in &self.lengths {
@@ -155,18 +169,20 @@ pub(super) struct ZeroForms {
 }
 
 impl ZeroForms {
-    /// Returns the forms for rows in `width` coordinates.
+    /// Returns the forms for a reduced basis in `width` coordinates.
     ///
     /// # Complexity
-    /// O(w³) field operations for w coordinates.
+    /// O(w²) field operations for w coordinates.
     pub(super) fn new(field: Field, rows: &[Vec<Residue>], width: usize) -> ZeroForms {
-        let span = Echelon::from_vectors(field, rows);
-        let (rows, pivots) = (span.reduced_rows(), span.pivots());
+        let pivots = rows
+            .iter()
+            .filter_map(|row| row.iter().position(|&x| x != 0));
+        let pivots: Vec<usize> = pivots.collect();
         let open: Vec<usize> = (0..width).filter(|at| !pivots.contains(at)).collect();
         let mut numbers = vec![0; open.len() * width];
         for (form, &at) in numbers.chunks_exact_mut(width).zip(&open) {
             form[at] = field.one();
-            for (&pivot, row) in pivots.iter().zip(&rows) {
+            for (&pivot, row) in pivots.iter().zip(rows) {
                 form[pivot] = field.neg(row[at]);
             }
         }
@@ -178,7 +194,15 @@ impl ZeroForms {
     }
 }
 
+/// Memory of one walk after another.
+#[derive(Default)]
+pub(super) struct WalkMemory {
+    images: Vec<Residue>,
+    levels: Vec<Forms>,
+}
+
 /// The linear forms that are zero on the front and on some rows of rank r.
+#[derive(Default)]
 struct Forms {
     /// Empty if forms have numbers at all coordinates. Otherwise the coordinates: first r whose forms have ended, one with each row that was
     /// new, then one of each form. A form has numbers at its own and at those that have ended.
@@ -190,21 +214,13 @@ struct Forms {
 }
 
 impl Forms {
-    /// Returns forms of a rank, all zero, of `forms` before any row.
-    fn dense(forms: usize, rank: usize, width: usize) -> Forms {
-        Forms {
-            order: Vec::new(),
-            numbers: vec![0; (forms - rank) * width],
-            each: width,
-        }
-    }
-
-    /// Returns forms of a rank, all zero, with a coordinate for each of `forms` before any row.
-    fn sparse(forms: usize, rank: usize) -> Forms {
-        Forms {
-            order: (0..forms).collect(),
-            ..Forms::dense(forms, rank, rank + 1)
-        }
+    /// Makes room for the forms of a rank, of `forms` before any row, with some numbers each. If they are `sparse`, each has a coordinate
+    /// before any row.
+    fn resize_to(&mut self, forms: usize, rank: usize, each: usize, sparse: bool) {
+        self.order.clear();
+        self.order.extend(0..if sparse { forms } else { 0 });
+        self.numbers.resize((forms - rank) * each, 0);
+        self.each = each;
     }
 
     /// Returns what a form is on a vector.
@@ -232,30 +248,14 @@ impl Forms {
 struct Walk<'a> {
     of: &'a Bases,
     /// The vectors, or what the forms before any row are on them; each of `width` numbers.
-    vectors: Cow<'a, [Residue]>,
+    vectors: &'a [Residue],
     width: usize,
     /// The forms for each rank of the rows that are followed; that with the motion of kept links is the last.
-    levels: Vec<Forms>,
+    levels: &'a mut [Forms],
     found: Set,
 }
 
-impl<'a> Walk<'a> {
-    /// Returns a walk that has found nothing.
-    fn new(
-        of: &'a Bases,
-        vectors: Cow<'a, [Residue]>,
-        width: usize,
-        levels: Vec<Forms>,
-    ) -> Walk<'a> {
-        Walk {
-            of,
-            vectors,
-            width,
-            levels,
-            found: empty_set(of.nodes.len()),
-        }
-    }
-
+impl Walk<'_> {
     /// Follows the rows of some items, with `left` rows to the end of each basis. The rows before have a rank, and the forms of that rank
     /// are zero on them.
     fn follow_rows(&mut self, items: Range<usize>, left: usize, rank: usize) {

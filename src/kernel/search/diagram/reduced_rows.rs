@@ -76,7 +76,7 @@ impl Rows {
 
     /// Reads packed rows, and puts each coordinate at its place among `width` ones. There are no rows if nothing was packed, as before the
     /// first variable of a part.
-    pub(super) fn unpack_spread(
+    pub(in crate::search) fn unpack_spread(
         &mut self,
         arithmetic: &mut Arithmetic,
         width: usize,
