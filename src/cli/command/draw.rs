@@ -4,7 +4,7 @@ use crate::cli::option::request::Which;
 use crate::cli::option::variant::Chosen;
 use crate::cli::option::{self as picture, variant};
 use crate::cli::prelude::*;
-use crate::draw::{self, Drawing, Moved, Sight, Subject};
+use crate::draw::{self, Drawing, Sight, Subject};
 use crate::page::moving::Moving;
 use crate::redundancy::stress::SelfStress;
 use crate::view::analysis::Analysis;
@@ -210,15 +210,12 @@ fn draw_moving(
         Some(k) => Moving::idle_motion(mechanism, analysis, state, k.wrapping_sub(1))?,
         None => Moving::new(mechanism, state, a.stroke.as_deref(), a.drive.as_deref())?,
     };
-    let moved = Moved {
-        stress,
-        ..moving.as_moved()
-    };
-    Ok(if a.motion {
-        draw::kinematic_moving(subject, sight, &moved)
+    let draw = if a.motion {
+        draw::kinematic_moving
     } else {
-        draw::kinematic_along(subject, sight, &moved)
-    })
+        draw::kinematic_along
+    };
+    Ok(draw(subject, sight, &moving, stress))
 }
 
 /// Returns true if the drawing is to be a PNG. Reports mistakes before any work is done.
