@@ -2,7 +2,7 @@
 
 use crate::cli::option::request::Which;
 use crate::cli::option::variant::Chosen;
-use crate::cli::option::{self as picture, variant};
+use crate::cli::option::{self as picture, parse_three, variant};
 use crate::cli::prelude::*;
 use crate::draw::{self, Drawing, Sight, Subject};
 use crate::page::moving::Moving;
@@ -101,8 +101,7 @@ fn parse_direction(text: &str, words: &str, example: &str) -> Result<[f64; 3], S
 
 /// Parses a direction as three numbers.
 fn parse_numbers(text: &str) -> Option<[f64; 3]> {
-    let parts: Option<Vec<f64>> = text.split(',').map(|p| p.trim().parse().ok()).collect();
-    let direction: [f64; 3] = parts?.try_into().ok()?;
+    let direction = parse_three(text)?;
     let size = direction.iter().fold(0.0f64, |m, x| m.max(x.abs()));
     (size > 0.0 && size.is_finite()).then(|| direction.map(|x| x / size))
 }
