@@ -162,17 +162,19 @@ pub(crate) fn description_of(
     bytes: &[u8],
     options: &Options,
 ) -> Result<Imported, Error> {
-    let folder = path
-        .parent()
-        .filter(|p| !p.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
-    let folder = std::fs::canonicalize(folder).map_err(|why| Error::Read {
+    let folder = std::fs::canonicalize(folder_of(path)).map_err(|why| Error::Read {
         path: path.to_owned(),
         why,
     })?;
     let read = |inner: &str| included(&folder, &options.models, inner);
     let name = path.display().to_string();
     Ok(robots::import(&name, bytes, &read, options)?)
+}
+
+/// Returns the folder of a file.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
+    folder.unwrap_or(Path::new("."))
 }
 
 /// Returns the bytes of an included file, from the folder of the description or from a folder of models.

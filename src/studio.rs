@@ -17,6 +17,7 @@ mod shelf;
 mod work;
 
 pub use disk::Opening;
+pub(crate) use disk::begin_file;
 
 use crate::score::request::Request;
 use door::{Door, Waiting, WaitingPlace};

@@ -62,6 +62,12 @@ pub(crate) enum TextJsonOrCsv {
     Csv,
 }
 
+/// Parses three numbers with commas between them.
+pub(crate) fn parse_three(text: &str) -> Option<[f64; 3]> {
+    let parts: Option<Vec<f64>> = text.split(',').map(|p| p.trim().parse().ok()).collect();
+    parts?.try_into().ok()
+}
+
 /// Returns true if the name of a file ends in .png.
 pub(crate) fn named(path: Option<&Path>) -> bool {
     let end = path.and_then(Path::extension);

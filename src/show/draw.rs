@@ -28,8 +28,8 @@ mod symbol {
 
 pub use crate::svg::plane::Rect;
 pub(crate) use kinematic::kinematic_with;
-pub use kinematic::moving::{Moved, kinematic_along, kinematic_moving};
-pub use kinematic::scene::{Scene, Shown, kinematic_scene};
+pub use kinematic::moving::{Moving, kinematic_along, kinematic_moving};
+pub use kinematic::scene::{Scene, kinematic_scene};
 pub use kinematic::{kinematic, kinematic_seen};
 
 pub use place::projection::Sight;

@@ -135,7 +135,7 @@ pub fn report_html(page: &Page<'_>) -> Result<String, AnalysisError> {
                     }
                     (section(2, states::states_html(page, &analysis)))
                     (section(3, states::certainty_html(page, &analysis)))
-                    (section(4, page.commands.commands_html()))
+                    (section(4, contents::commands_html(&page.commands.rows)))
                     section id="sources" {
                         h2 { "Sources" }
                         ul { @for s in &m.sources { li { (s) } } }

@@ -94,6 +94,18 @@ pub(crate) fn join_objects<const N: usize>(parts: [Value; N]) -> Value {
     entries.flatten().collect()
 }
 
+/// Returns the values of each key, the keys in the order of their firsts.
+pub fn group_by_key<K: PartialEq, V>(pairs: impl IntoIterator<Item = (K, V)>) -> Vec<(K, Vec<V>)> {
+    let mut out: Vec<(K, Vec<V>)> = Vec::new();
+    for (key, value) in pairs {
+        match out.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, all)) => all.push(value),
+            None => out.push((key, vec![value])),
+        }
+    }
+    out
+}
+
 /// Returns the claims about a topic, in the order of the file.
 pub(crate) fn claims_about(claims: &[Claim], topic: Topic) -> Vec<&Claim> {
     claims.iter().filter(|c| c.topic == topic).collect()

@@ -325,14 +325,9 @@ impl Desk {
     /// Returns the state of the desk for the page, which changes with every text.
     pub(super) fn desk_json(&self) -> Value {
         let mut out = self.reading.reading_json();
-        let more = json!({
-            "revision": self.revision,
-            "text": self.current_text(),
-            "desk": self.file_state(),
-        });
-        if let (Value::Object(out), Value::Object(more)) = (&mut out, more) {
-            out.extend(more);
-        }
+        out["revision"] = json!(self.revision);
+        out["text"] = json!(self.current_text());
+        out["desk"] = self.file_state();
         out
     }
 

@@ -1,6 +1,6 @@
 //! The file on disk: reading, atomic writing, and the unsaved work next to it.
 
-use crate::api::MAX_DESCRIPTION_BYTES;
+use crate::api::{MAX_DESCRIPTION_BYTES, folder_of};
 use crate::builtin;
 use crate::file::{disk, template};
 use crate::robots;
@@ -8,6 +8,7 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use tempfile::NamedTempFile;
 
 /// A frame and nothing else.
 pub(super) const BLANK: &str = include_str!("shelf/blank.toml");
@@ -80,8 +81,7 @@ impl OpenFile {
     }
 
     pub(super) fn parent_folder(&self) -> &Path {
-        let folder = self.path.parent().filter(|p| !p.as_os_str().is_empty());
-        folder.unwrap_or(Path::new("."))
+        folder_of(&self.path)
     }
 
     /// Returns its content, or `None` if it does not exist.
@@ -172,10 +172,8 @@ impl OpenFile {
 /// Writes a temporary file in the folder of a path and renames it to the path, so that no part of a file is ever there.
 /// An error names the path.
 fn write_whole(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<File> {
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
     let made = || {
-        let folder = folder.unwrap_or(Path::new("."));
-        let mut beside = temporary_builder().tempfile_in(folder)?;
+        let mut beside = begin_file(folder_of(path))?;
         write(beside.as_file_mut())?;
         beside.persist(path).map_err(|e| e.error)
     };
@@ -185,8 +183,8 @@ fn write_whole(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> 
     })
 }
 
-/// Returns a maker of temporary files that may be read by whom the umask lets: they become results.
-fn temporary_builder() -> tempfile::Builder<'static, 'static> {
+/// Begins a temporary file in a folder. It may be read by whom the umask lets, because it becomes a result.
+pub(crate) fn begin_file(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".tmp-ozols-");
     #[cfg(unix)]
@@ -194,7 +192,7 @@ fn temporary_builder() -> tempfile::Builder<'static, 'static> {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    builder
+    builder.tempfile_in(folder)
 }
 
 fn kind_of(path: &Path) -> Kind {

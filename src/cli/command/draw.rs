@@ -2,9 +2,9 @@
 
 use crate::cli::option::request::Which;
 use crate::cli::option::variant::Chosen;
-use crate::cli::option::{self as picture, variant};
+use crate::cli::option::{self as picture, parse_three, variant};
 use crate::cli::prelude::*;
-use crate::draw::{self, Drawing, Moved, Sight, Subject};
+use crate::draw::{self, Drawing, Sight, Subject};
 use crate::page::moving::Moving;
 use crate::redundancy::stress::SelfStress;
 use crate::view::analysis::Analysis;
@@ -101,8 +101,7 @@ fn parse_direction(text: &str, words: &str, example: &str) -> Result<[f64; 3], S
 
 /// Parses a direction as three numbers.
 fn parse_numbers(text: &str) -> Option<[f64; 3]> {
-    let parts: Option<Vec<f64>> = text.split(',').map(|p| p.trim().parse().ok()).collect();
-    let direction: [f64; 3] = parts?.try_into().ok()?;
+    let direction = parse_three(text)?;
     let size = direction.iter().fold(0.0f64, |m, x| m.max(x.abs()));
     (size > 0.0 && size.is_finite()).then(|| direction.map(|x| x / size))
 }
@@ -210,15 +209,12 @@ fn draw_moving(
         Some(k) => Moving::idle_motion(mechanism, analysis, state, k.wrapping_sub(1))?,
         None => Moving::new(mechanism, state, a.stroke.as_deref(), a.drive.as_deref())?,
     };
-    let moved = Moved {
-        stress,
-        ..moving.as_moved()
-    };
-    Ok(if a.motion {
-        draw::kinematic_moving(subject, sight, &moved)
+    let draw = if a.motion {
+        draw::kinematic_moving
     } else {
-        draw::kinematic_along(subject, sight, &moved)
-    })
+        draw::kinematic_along
+    };
+    Ok(draw(subject, sight, &moving, stress))
 }
 
 /// Returns true if the drawing is to be a PNG. Reports mistakes before any work is done.

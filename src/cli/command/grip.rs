@@ -1,5 +1,6 @@
 //! `ozols grip`.
 
+use crate::cli::option::parse_three;
 use crate::cli::prelude::*;
 use crate::drive::driving::design_drive;
 use crate::file::read::workload::trajectory::read_trajectory;
@@ -37,13 +38,9 @@ pub(crate) struct Grip {
 }
 
 fn parse_vector(text: &str) -> Result<[f64; 3], String> {
-    let numbers: Vec<f64> = text
-        .split(',')
-        .map(|t| t.trim().parse::<f64>().ok().filter(|x| x.abs() <= 1e6))
-        .collect::<Option<_>>()
-        .unwrap_or_default();
-    <[f64; 3]>::try_from(numbers)
-        .map_err(|_| "give three numbers such as 5,0,-2, none beyond 1e6".to_owned())
+    let small = |numbers: &[f64; 3]| numbers.iter().all(|x| x.abs() <= 1e6);
+    let words = || "give three numbers such as 5,0,-2, none beyond 1e6".to_owned();
+    parse_three(text).filter(small).ok_or_else(words)
 }
 
 pub(crate) fn run_grip(a: &Grip) -> anyhow::Result<Done> {

@@ -127,7 +127,10 @@ fn page_commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Comman
             format!("draw {file} --kind scheme|kinematic -o {svg}"),
         ),
     ];
-    let rows = rows.map(|(what, command)| (what.to_owned(), format!("ozols {command}")));
+    let rows = rows.map(|(gives, command)| NextCommand {
+        command: format!("ozols {command}"),
+        gives: gives.to_owned(),
+    });
     Commands {
         rows: rows.to_vec(),
         variant: of_one(mechanism, &file, request, "variant"),

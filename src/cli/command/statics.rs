@@ -180,8 +180,7 @@ fn run_misfit(
         TextJsonOrCsv::Text => view.text(a.to.width()),
         TextJsonOrCsv::Json => output::json_text(&view.json())?,
         TextJsonOrCsv::Csv => bail!("assembly forces have no CSV; use --format json"),
-    })?;
-    Ok(Done::Found)
+    })
 }
 
 /// Returns the model that the options ask for; `own` is true if the method solves groups in the plane by itself.

@@ -38,9 +38,8 @@ fn parse_opening(file: Option<&Named>, loops: &Loops) -> anyhow::Result<Opening>
     if builtin::text(file).is_some() {
         return Ok(Opening::Builtin(file.to_string(), here));
     }
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
     let fresh = path.extension().is_some_and(|e| e == "toml") && !path.exists();
-    if fresh && folder.is_none_or(|f| f.is_dir()) {
+    if fresh && api::folder_of(path).is_dir() {
         return Ok(Opening::File(
             path.to_path_buf(),
             robots::Options::default(),

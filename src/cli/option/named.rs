@@ -31,12 +31,6 @@ impl From<OsString> for Named {
     }
 }
 
-impl From<&str> for Named {
-    fn from(name: &str) -> Named {
-        Named::from(OsString::from(name))
-    }
-}
-
 impl Deref for Named {
     type Target = str;
 

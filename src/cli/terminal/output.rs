@@ -84,10 +84,7 @@ pub(crate) fn write_with(
             .with_context(whole)?;
         return write_through(&name, file, write);
     }
-    let folder = path
-        .parent()
-        .filter(|p| !p.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
+    let folder = api::folder_of(path);
     if path.is_dir() {
         anyhow::bail!("{}: this is a folder; name a file in it", whole());
     }

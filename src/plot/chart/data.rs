@@ -1,5 +1,7 @@
 //! The data of a chart: finished numbers with their names.
 
+use crate::format;
+
 /// Series over two axes.
 ///
 /// # Examples
@@ -114,12 +116,5 @@ pub(super) fn group_thousands(digits: &str) -> String {
     if whole.len() < 5 {
         return digits.to_owned();
     }
-    let mut out = String::new();
-    for (n, c) in whole.chars().enumerate() {
-        if n > 0 && (whole.len() - n).is_multiple_of(3) {
-            out.push('\u{202f}');
-        }
-        out.push(c);
-    }
-    out + rest
+    format::group_thousands(whole).replace(',', "\u{202f}") + rest
 }

@@ -4,7 +4,7 @@ use super::data::{Series, Style};
 use super::frame;
 use crate::chart::data::{COLOURS, PAD, TICK, WIDTH};
 use crate::format::six_digits;
-use crate::svg::plane::Rect;
+use crate::svg::plane::{Rect, path_data};
 use crate::svg::text;
 use crate::svg::xml::{Xml, format_number};
 
@@ -193,18 +193,10 @@ fn draw_mark(xml: &mut Xml, d: &DrawnSeries, x: f64, y: f64, r: f64, tip: &str) 
         5 => &PLUS,
         _ => &PLUS.map(|(a, b)| (0.8 * (a - b), 0.8 * (a + b))),
     };
-    let mut shape = String::new();
-    for (n, (a, b)) in corners.iter().enumerate() {
-        let letter = if n == 0 { "M" } else { "L" };
-        shape += &format!(
-            "{letter}{} {}",
-            format_number(x + a * r),
-            format_number(y + b * r)
-        );
-    }
+    let corners = corners.iter().map(|(a, b)| [x + a * r, y + b * r]);
     xml.begin_tag("path")
         .set_text("class", &class)
-        .set_text("d", &(shape + "Z"))
+        .set_text("d", &path_data(&corners.collect::<Vec<_>>(), true))
         .close_with_tip(tip);
 }
 

@@ -1,7 +1,7 @@
 //! Common parts of every picture: the root element, the title, horizontal axes.
 
 use crate::chart::axis::{Label, Ruler};
-use crate::chart::data::{PAD, STYLE, TICK};
+use crate::chart::data::{PAD, TICK};
 use crate::svg::plane::Rect;
 use crate::svg::text;
 use crate::svg::xml::{Tag, Xml};
@@ -27,7 +27,8 @@ impl Head {
         PAD + 23.0 * self.title.len() as f64 + 18.0 * self.subtitle.len() as f64 + 6.0
     }
 
-    fn write_head(&self, xml: &mut Xml) {
+    /// Writes the lines.
+    pub(super) fn write_head(&self, xml: &mut Xml) {
         let mut y = PAD - 6.0;
         for (lines, step, class) in [(&self.title, 23.0, "title"), (&self.subtitle, 18.0, "sub")] {
             y += if class == "sub" { 3.0 } else { 0.0 };
@@ -37,19 +38,6 @@ impl Head {
             }
         }
     }
-}
-
-/// Begins a picture. `class` is added to its root, `about` is read out after the title.
-pub(super) fn begin_picture(
-    size: [f64; 2],
-    class: &str,
-    title: &str,
-    about: &str,
-    head: &Head,
-) -> Xml {
-    let mut xml = Xml::begin_picture(class, size, [title, about], STYLE);
-    head.write_head(&mut xml);
-    xml
 }
 
 /// Draws a line between two points.

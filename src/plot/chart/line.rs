@@ -1,7 +1,7 @@
 //! Series over two axes, as SVG and as CSV.
 
 use crate::chart::axis::{AxisFit, Label, Room, Ruler};
-use crate::chart::data::{COLOURS, Chart, PAD, Series, Style, TICK, WIDTH};
+use crate::chart::data::{COLOURS, Chart, PAD, STYLE, Series, Style, TICK, WIDTH};
 use crate::chart::drawn::{self, DrawnSeries, LEAD, SAMPLE, STEP};
 use crate::chart::frame::{self, Head};
 use crate::format::csv;
@@ -26,8 +26,9 @@ impl Chart {
         let foot = axes.plot.bottom + 52.0;
 
         let size = [WIDTH, foot + 16.0 * note.len() as f64];
-        let mut xml =
-            frame::begin_picture(size, "oz oz-chart", &self.title, &self.about_text(), &head);
+        let texts = [&*self.title, &self.about_text()];
+        let mut xml = Xml::begin_picture("oz oz-chart", size, texts, STYLE);
+        head.write_head(&mut xml);
         axes.draw_axes(&mut xml, &self.x.label, &self.y.label);
         let lines = self.series.iter().filter(|s| s.style != Style::Points);
         let many = lines.count() > COLOURS;
@@ -62,8 +63,8 @@ impl Chart {
         points.filter(|p| self.shows_point(p))
     }
 
-    /// Returns the axes below `top`, as high as the names of series in the margin require, and as wide as those leave
-    /// space for.
+    /// Returns the axes below `top`, behind the labels of the vertical one, as high as the names of series in the margin require, and as
+    /// wide as those leave space for.
     fn make_axes(&self, top: f64, shown: &[Numbered]) -> PlotAxes {
         let beside = shown.iter().filter(|(_, s)| !s.name.is_empty());
         let longest = beside
@@ -88,9 +89,16 @@ impl Chart {
         } else {
             AxisFit::Tight
         };
-        PlotAxes::new(top, height, right, y, |room| {
-            Ruler::new(self.x.scale, self.seen_points().map(|p| p.0), fit, room)
-        })
+        let labels = y.ticks.iter().filter_map(|t| t.label.as_ref());
+        let left = labels.map(Label::label_width).fold(0.0, f64::max);
+        let left = (PAD + left + 8.0).max(48.0);
+        let room = Room::Across(right - left, left - 4.0, WIDTH - right - 4.0);
+        PlotAxes {
+            plot: Rect::new(left, top, right, top + height),
+            height,
+            x: Ruler::new(self.x.scale, self.seen_points().map(|p| p.0), fit, room),
+            y,
+        }
     }
 
     /// Returns the points in long form, one per line, under the heads `series,x,y`.
@@ -154,37 +162,16 @@ fn missing_note(absent: &[Numbered]) -> Vec<String> {
 
 /// A horizontal axis, a vertical axis, and the rectangle that they span.
 #[derive(Debug)]
-pub(super) struct PlotAxes {
-    pub(super) plot: Rect,
+struct PlotAxes {
+    plot: Rect,
     height: f64,
     x: Ruler,
     y: Ruler,
 }
 
 impl PlotAxes {
-    /// Creates axes of this `height` that start at `top` and end at `right`. They begin behind the labels of the
-    /// vertical axis. `across` creates the ruler for the remaining space.
-    pub(super) fn new(
-        top: f64,
-        height: f64,
-        right: f64,
-        y: Ruler,
-        across: impl FnOnce(Room) -> Ruler,
-    ) -> Self {
-        let labels = y.ticks.iter().filter_map(|t| t.label.as_ref());
-        let left = labels.map(Label::label_width).fold(0.0, f64::max);
-        let left = (PAD + left + 8.0).max(48.0);
-        let room = Room::Across(right - left, left - 4.0, WIDTH - right - 4.0);
-        PlotAxes {
-            plot: Rect::new(left, top, right, top + height),
-            height,
-            x: across(room),
-            y,
-        }
-    }
-
     /// Draws the axes with their names.
-    pub(super) fn draw_axes(&self, xml: &mut Xml, across: &str, up: &str) {
+    fn draw_axes(&self, xml: &mut Xml, across: &str, up: &str) {
         let plot = &self.plot;
         let label = text::cut_text(up, TICK, WIDTH - 2.0 * PAD);
         frame::begin_text(xml, "name", (PAD, plot.top - 14.0), "").write_text(&label);
@@ -195,7 +182,7 @@ impl PlotAxes {
     }
 
     /// Returns the position of a point in the picture, or `None` if it cannot be shown.
-    pub(super) fn place_point(&self, x: f64, y: f64) -> Option<(f64, f64)> {
+    fn place_point(&self, x: f64, y: f64) -> Option<(f64, f64)> {
         let (across, up) = (self.x.place_value(x)?, self.y.place_value(y)?);
         let plot = &self.plot;
         Some((

@@ -2,12 +2,12 @@
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::draw::naming::{Name, draw_leaders};
-use crate::draw::place::graph::{Graph, joint_ring};
+use crate::draw::place::graph::Graph;
 use crate::draw::place::layout::{Layout, find_layout};
 use crate::draw::prelude::*;
 use crate::draw::sheet::shapes::{HALF, hatch_path, rounded_path};
 use crate::draw::sheet::{Caption, draw_sheet};
-use crate::draw::subject::roominess;
+use crate::draw::subject::{joints_of_link, roominess};
 use crate::geom::expr::Expr;
 use crate::svg::labels::LabelPlace;
 use crate::svg::plane::sides_of;
@@ -24,14 +24,6 @@ const DRIVE: f64 = 15.5;
 /// σ_i of a contour and its range over all orders, where known.
 type Share = Option<(usize, (usize, usize))>;
 
-/// The parts of the drawing, indexed by their places in it.
-struct Parts {
-    joints: Vec<JointId>,
-    links: Vec<LinkId>,
-    contours: Vec<(Contour, Share)>,
-    graph: Graph,
-}
-
 /// Draws the structural scheme.
 ///
 /// # Examples
@@ -46,64 +38,16 @@ struct Parts {
 /// ```
 #[must_use]
 pub fn scheme(subject: &Subject<'_>) -> Drawing {
-    let parts = collect_parts(subject);
-    let mut at = find_layout(&parts.graph, &joint_hints(subject, &parts));
-    let unit = UNIT * roominess(subject.mechanism, &parts.joints);
-    for p in at.joints.iter_mut().chain(at.hubs.iter_mut()) {
-        *p = scale(*p, unit);
-    }
-    Scheme::new(subject, parts, at).draw_sheet()
-}
-
-fn collect_parts(subject: &Subject<'_>) -> Parts {
-    let m = subject.mechanism;
-    let joints: Vec<JointId> = m.joints_in(subject.state).collect();
-    let links: Vec<LinkId> = m.links_in(subject.state).collect();
-    let local = |j: JointId| joints.iter().position(|&k| k == j);
-    let contours: Vec<(Contour, Option<_>)> = match subject.analysis {
-        Some(a) => {
-            let shares = a.per_contour.iter();
-            shares
-                .map(|s| (s.contour.clone(), Some((s.redundant, s.range))))
-                .collect()
-        }
-        None => {
-            let basis = contour_basis(m, subject.state);
-            basis.into_iter().map(|c| (c, None)).collect()
-        }
-    };
-    let graph = Graph {
-        links: links
-            .iter()
-            .map(|&l| {
-                let of = joints.iter().enumerate();
-                of.filter(|(_, j)| m.joints[**j].links.contains(&l))
-                    .map(|(i, _)| i)
-                    .collect()
-            })
-            .collect(),
-        joints: joints.len(),
-        frame: links.iter().position(|&l| l == m.frame_link()),
-        contours: contours
-            .iter()
-            .map(|(c, _)| c.joints.iter().filter_map(|&(j, _)| local(j)).collect())
-            .collect(),
-    };
-    Parts {
-        joints,
-        links,
-        contours,
-        graph,
-    }
+    Scheme::new(subject).draw_sheet()
 }
 
 /// Returns the joints as the coordinates have them, seen along each axis and obliquely.
-fn joint_hints(subject: &Subject<'_>, parts: &Parts) -> Vec<Vec<Point>> {
+fn joint_hints(m: &Mechanism, joints: &[JointId]) -> Vec<Vec<Point>> {
     let at = |j: &JointId| {
-        let p = &subject.mechanism.joints[*j].frame.point;
+        let p = &m.joints[*j].frame.point;
         [0, 1, 2].map(|i| Expr::to_f64(&p[i]))
     };
-    let points: Vec<[f64; 3]> = parts.joints.iter().map(at).collect();
+    let points: Vec<[f64; 3]> = joints.iter().map(at).collect();
     let views: [fn(&[f64; 3]) -> Point; 4] = [
         |p| [p[0], -p[1]],
         |p| [p[0], -p[2]],
@@ -116,27 +60,60 @@ fn joint_hints(subject: &Subject<'_>, parts: &Parts) -> Vec<Vec<Point>> {
         .collect()
 }
 
-/// A scheme under way.
+/// A scheme under way. Its parts are indexed by their places in it.
 struct Scheme<'a> {
     subject: &'a Subject<'a>,
-    parts: Parts,
+    joints: Vec<JointId>,
+    links: Vec<LinkId>,
+    contours: Vec<(Contour, Share)>,
+    graph: Graph,
     at: Layout,
     rings: Vec<Vec<usize>>,
 }
 
 impl<'a> Scheme<'a> {
-    fn new(subject: &'a Subject<'a>, parts: Parts, at: Layout) -> Scheme<'a> {
-        let rings = parts
-            .graph
-            .links
-            .iter()
-            .map(|of| joint_ring(of, &at.joints))
-            .collect();
+    fn new(subject: &'a Subject<'a>) -> Scheme<'a> {
+        let m = subject.mechanism;
+        let joints: Vec<JointId> = m.joints_in(subject.state).collect();
+        let links: Vec<LinkId> = m.links_in(subject.state).collect();
+        let local = |j: JointId| joints.iter().position(|&k| k == j);
+        let contours: Vec<(Contour, Option<_>)> = match subject.analysis {
+            Some(a) => {
+                let shares = a.per_contour.iter();
+                shares
+                    .map(|s| (s.contour.clone(), Some((s.redundant, s.range))))
+                    .collect()
+            }
+            None => {
+                let basis = contour_basis(m, subject.state);
+                basis.into_iter().map(|c| (c, None)).collect()
+            }
+        };
+        let graph = Graph {
+            links: links
+                .iter()
+                .map(|&l| joints_of_link(m, &joints, l))
+                .collect(),
+            joints: joints.len(),
+            frame: links.iter().position(|&l| l == m.frame_link()),
+            contours: contours
+                .iter()
+                .map(|(c, _)| c.joints.iter().filter_map(|&(j, _)| local(j)).collect())
+                .collect(),
+        };
+        let mut at = find_layout(&graph, &joint_hints(m, &joints));
+        let unit = UNIT * roominess(m, &joints);
+        for p in at.joints.iter_mut().chain(at.hubs.iter_mut()) {
+            *p = scale(*p, unit);
+        }
         Scheme {
+            rings: graph.link_rings(&at.joints),
             subject,
-            parts,
+            joints,
+            links,
+            contours,
+            graph,
             at,
-            rings,
         }
     }
 
@@ -161,7 +138,7 @@ impl<'a> Scheme<'a> {
     }
 
     fn joint_radius(&self, i: usize) -> f64 {
-        if self.subject.mechanism.joints[self.parts.joints[i]].drive {
+        if self.subject.mechanism.joints[self.joints[i]].drive {
             DRIVE
         } else {
             JOINT
@@ -202,7 +179,7 @@ impl<'a> Scheme<'a> {
                 self.draw_contour(sheet, c, &self.contour_band(c));
             }
             self.subject.draw_couplings(sheet, |j| {
-                let i = self.parts.joints.iter().position(|&x| x == j)?;
+                let i = self.joints.iter().position(|&x| x == j)?;
                 Some(self.at.joints[i])
             });
             self.draw_labels(sheet, &labels);
@@ -213,12 +190,12 @@ impl<'a> Scheme<'a> {
     }
 
     fn draw_link(&self, sheet: &mut Sheet, l: usize) {
-        let link = self.parts.links[l];
+        let link = self.links[l];
         let of = &self.subject.mechanism.links[link];
         let corners = self.link_corners(l);
         let dashed = self.rings[l]
             .iter()
-            .all(|&i| self.subject.only_here(self.parts.joints[i]));
+            .all(|&i| self.subject.only_here(self.joints[i]));
         let class = format!(
             "link{}{}",
             self.subject.link_mark(link).mark_class(),
@@ -240,7 +217,7 @@ impl<'a> Scheme<'a> {
     }
 
     fn draw_labels(&self, sheet: &mut Sheet, labels: &[(LabelPlace, Name)]) {
-        let (joints, links) = (self.parts.joints.len(), self.parts.links.len());
+        let (joints, links) = (self.joints.len(), self.links.len());
         draw_leaders(sheet, labels);
         for i in 0..joints {
             self.draw_joint(sheet, i);
@@ -248,7 +225,7 @@ impl<'a> Scheme<'a> {
         for (n, (place, name)) in labels.iter().enumerate() {
             let (rect, middle) = (&place.rect, place.rect.middle());
             let frame = self.subject.mechanism.frame_link();
-            let link = n.checked_sub(joints).and_then(|l| self.parts.links.get(l));
+            let link = n.checked_sub(joints).and_then(|l| self.links.get(l));
             if n >= joints + links {
                 sheet.draw_rect("badge", rect, 8.0);
             } else if link.map_or_else(|| self.on_frame(middle), |l| *l == frame) {
@@ -261,7 +238,7 @@ impl<'a> Scheme<'a> {
     /// Returns true if a point is on the hatching.
     fn on_frame(&self, p: Point) -> bool {
         let frame = self.subject.mechanism.frame_link();
-        let Some(l) = self.parts.links.iter().position(|&l| l == frame) else {
+        let Some(l) = self.links.iter().position(|&l| l == frame) else {
             return false;
         };
         let corners = self.link_corners(l);
@@ -269,7 +246,7 @@ impl<'a> Scheme<'a> {
     }
 
     fn draw_joint(&self, sheet: &mut Sheet, i: usize) {
-        let id = self.parts.joints[i];
+        let id = self.joints[i];
         let joint = &self.subject.mechanism.joints[id];
         let at = self.at.joints[i];
         sheet.draw_group("data-joint", &joint.id, at, |s| {
@@ -290,7 +267,7 @@ impl<'a> Scheme<'a> {
     fn legend_rows(&self) -> Vec<(Swatch, String)> {
         let m = self.subject.mechanism;
         let mut out = Vec::new();
-        for (c, (contour, share)) in self.parts.contours.iter().enumerate() {
+        for (c, (contour, share)) in self.contours.iter().enumerate() {
             let redundant = share.map_or(0, |(r, _)| r);
             let name = contour.name(m);
             let words = Self::contour_words(c, &name, *share);
@@ -300,7 +277,7 @@ impl<'a> Scheme<'a> {
                 words.to_owned(),
             ));
         }
-        let any = |of: &dyn Fn(JointId) -> bool| self.parts.joints.iter().any(|&j| of(j));
+        let any = |of: &dyn Fn(JointId) -> bool| self.joints.iter().any(|&j| of(j));
         if any(&|j| m.joints[j].drive) {
             let circles = [9.5, 6.5].map(|r| Shape::circle("joint", [0.0; 2], r));
             let text = "driving pair".to_owned();
@@ -328,9 +305,9 @@ impl<'a> Scheme<'a> {
     /// Describes the drawing in words, for readers who cannot see it.
     fn describe_drawing(&self) -> String {
         let m = self.subject.mechanism;
-        let joints = self.parts.joints.iter().copied();
+        let joints = self.joints.iter().copied();
         let mut out = self.subject.describe_joints("Structural scheme", joints);
-        for (c, (contour, share)) in self.parts.contours.iter().enumerate() {
+        for (c, (contour, share)) in self.contours.iter().enumerate() {
             let _ = write!(
                 out,
                 " {}.",

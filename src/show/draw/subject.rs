@@ -7,6 +7,7 @@ use crate::search::Search;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::variant_mechanism;
 use crate::search::question::space::choice_name;
+use itertools::Itertools;
 
 /// The class of the style sheet that the lines of couplings have.
 pub(crate) const COUPLING: &str = "fine dash";
@@ -253,6 +254,12 @@ impl Subject<'_> {
         }
         out
     }
+}
+
+/// Returns the places of a link's joints among some.
+pub(crate) fn joints_of_link(m: &Mechanism, joints: &[JointId], link: LinkId) -> Vec<usize> {
+    let has = |j: &JointId| m.joints[*j].links.contains(&link);
+    joints.iter().positions(has).collect()
 }
 
 /// Returns the factor by which a drawing is larger than usual, to make room for long names.

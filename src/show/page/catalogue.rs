@@ -6,13 +6,13 @@ use super::{POLICY, STYLE, with_policy};
 use crate::catalog::store::{Store, StoreError};
 use crate::file::text::mechanism_from_str;
 use crate::robots::formats;
-use crate::view::catalog::structures::usual_hardware;
+use crate::view::catalog::structures::{Row, query_maps, usual_hardware};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use maud::{DOCTYPE, PreEscaped, html};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 const CARDS: &str = include_str!("catalogue.css");
@@ -68,23 +68,17 @@ const IDEAS: &str = "SELECT structure, place, changes, cost, change_count AS cha
      peak_moment FROM ideas ORDER BY structure, place";
 const WITHOUT: &str = "SELECT no_layout AS why, count(*) AS n FROM structures WHERE no_layout IS NOT NULL GROUP BY 1 ORDER BY 2 DESC, 1";
 
-fn query_maps(store: &Store, sql: &str) -> Result<Vec<Map<String, Value>>, StoreError> {
-    let (names, rows) = store.query_rows(sql, None)?;
-    let map = |row: Vec<Value>| names.iter().cloned().zip(row).collect();
-    Ok(rows.into_iter().map(map).collect())
-}
-
 /// Returns each structure with a layout: the data of its card, and its files and ideas,
 /// which the page shows once it is chosen.
 fn read_cards(store: &Store) -> Result<Vec<(Value, Value)>, StoreError> {
-    let mut ideas: BTreeMap<String, Vec<Map<String, Value>>> = BTreeMap::new();
-    for mut idea in query_maps(store, IDEAS)? {
+    let mut ideas: BTreeMap<String, Vec<Row>> = BTreeMap::new();
+    for mut idea in query_maps(store, IDEAS, None)? {
         if let Some(Value::String(of)) = idea.remove("structure") {
             ideas.entry(of).or_default().push(idea);
         }
     }
     let mut cards = Vec::new();
-    for mut card in query_maps(store, CARD)? {
+    for mut card in query_maps(store, CARD, None)? {
         let text = card.remove("mechanism");
         let id = card.get("id").and_then(Value::as_str).unwrap_or_default();
         let of = ideas.remove(id).unwrap_or_default();
@@ -129,7 +123,7 @@ fn script_data(
     escape_json(&data.to_string())
 }
 
-fn left_out_table(without: &[Map<String, Value>]) -> maud::Markup {
+fn left_out_table(without: &[Row]) -> maud::Markup {
     html! {
         details {
             summary { "Structures without a layout" }
@@ -153,7 +147,7 @@ fn left_out_table(without: &[Map<String, Value>]) -> maud::Markup {
 /// A mechanism read for each structure.
 pub fn catalogue_page(store: &Store, file: &str) -> Result<String, StoreError> {
     let cards = read_cards(store)?;
-    let without = query_maps(store, WITHOUT)?;
+    let without = query_maps(store, WITHOUT, None)?;
     let left_out: u64 = without
         .iter()
         .filter_map(|w| w.get("n").and_then(Value::as_u64))

@@ -50,8 +50,8 @@ pub struct Redesigns<'a> {
 /// How to get what a page shows from the command line: commands quoted for a shell.
 #[derive(Debug, Clone)]
 pub struct Commands {
-    /// The result of each command, and the command.
-    pub rows: Vec<(String, String)>,
+    /// The commands themselves.
+    pub rows: Vec<NextCommand>,
     /// The same about one variant, with `{}` for its number; empty if there is no such command.
     pub variant: Vec<(String, String)>,
     /// The same about one idea.
@@ -62,14 +62,12 @@ pub struct Commands {
     pub wider: Vec<NextCommand>,
 }
 
-impl Commands {
-    pub(super) fn commands_html(&self) -> Markup {
-        html! {
-            dl.commands {
-                @for (what, command) in &self.rows {
-                    dt { (what) }
-                    dd { code { (command) } }
-                }
+pub(super) fn commands_html(commands: &[NextCommand]) -> Markup {
+    html! {
+        dl.commands {
+            @for NextCommand { command, gives } in commands {
+                dt { (gives) }
+                dd { code { (command) } }
             }
         }
     }

@@ -1,7 +1,7 @@
 //! The parts that the script fills: the stage with the original mechanism and the chosen one, moved by one slider, and
 //! the frame of the redesigns with filters, table and chart.
 
-use super::contents::{Page, Redesigns};
+use super::contents::{Page, Redesigns, commands_html};
 use super::scenes::SHOWN;
 use crate::view::analysis::Analysis;
 use crate::view::search::nothing_found::hopeless_reasons;
@@ -67,12 +67,7 @@ pub(super) fn redesigns_html(page: &Page<'_>) -> Markup {
         Err(why) => html! { p { "Redesigns were not searched: " (why) } },
         Ok(r) if r.variants.is_empty() => html! {
             @for why in empty_reasons(page, r) { p { (why) "." } }
-            dl.commands {
-                @for step in &page.commands.wider {
-                    dt { (step.gives) }
-                    dd { code { (step.command) } }
-                }
-            }
+            (commands_html(&page.commands.wider))
         },
         Ok(r) => html! {
             (PreEscaped(FRAME))

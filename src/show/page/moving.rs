@@ -1,6 +1,6 @@
 //! The motion that a moving drawing shows.
 
-use crate::draw::Moved;
+pub use crate::draw::Moving;
 use crate::file::read::workload::motion::parse_stroke;
 use crate::format::decimals;
 use crate::model::loads::Stroke;
@@ -23,16 +23,6 @@ const STEPS: usize = 72;
 const MOST: usize = 600;
 /// Most turns that a screw is followed to either side.
 const MOST_TURNS: f64 = 50.0;
-
-/// A motion.
-#[derive(Debug)]
-pub struct Moving {
-    pose: Pose,
-    way: Way,
-    words: String,
-    /// What positions of the way are in: the file's length unit where the drive slides, radians otherwise.
-    unit: (f64, String),
-}
 
 impl Moving {
     /// Creates the motion of a mechanism's drive, or of the named joint. It covers a range such as "0:90deg:30", or as far
@@ -117,7 +107,7 @@ impl Moving {
             pose,
             way,
             words,
-            unit: (unit, symbol.to_owned()),
+            unit: (unit, symbol),
         })
     }
 
@@ -161,7 +151,7 @@ impl Moving {
             pose: Pose::of_file(m, state)?,
             way: wiggle.way,
             words: format!("idle freedom {}: {words}{far}{open}", which + 1),
-            unit: (1.0, "rad".to_owned()),
+            unit: (1.0, "rad"),
         })
     }
 
@@ -179,19 +169,8 @@ impl Moving {
             pose,
             way,
             words: "the pose of the file".to_owned(),
-            unit: (1.0, "rad".to_owned()),
+            unit: (1.0, "rad"),
         })
-    }
-
-    /// Returns the motion in the form that drawings need.
-    pub fn as_moved(&self) -> Moved<'_> {
-        Moved {
-            pose: &self.pose,
-            way: &self.way,
-            words: &self.words,
-            unit: (self.unit.0, &self.unit.1),
-            stress: None,
-        }
     }
 }
 

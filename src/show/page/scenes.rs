@@ -1,8 +1,7 @@
 //! A mechanism in space, to be turned and moved: as far as its drive goes, its idle freedoms, its self-stresses.
 
-use crate::draw::{Drawing, Moved, Scene, Shown, Sight, Subject, Swap, kinematic_scene};
+use crate::draw::{Drawing, Moving, Scene, Subject, Swap, kinematic_scene};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::page::moving::Moving;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::stress::SelfStress;
 use crate::score::outcome::Outcome;
@@ -78,13 +77,7 @@ fn draw_scene(
         analysis,
         marks: None,
     };
-    let moves: Vec<Moved<'_>> = moving.iter().map(Moving::as_moved).collect();
-    let shown = Shown {
-        moves: &moves,
-        stresses,
-        swaps,
-    };
-    kinematic_scene(&subject, &Sight::default(), shown)
+    kinematic_scene(&subject, moving, stresses, swaps)
 }
 
 /// Returns the picture of a mechanism at rest, without title and legend.

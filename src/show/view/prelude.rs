@@ -18,7 +18,8 @@ pub(crate) use crate::view::terminal::{
     Report, Table, fit_lines, row_cells, text_table, unit_prefix,
 };
 pub(crate) use crate::view::{
-    as_read, certainty_kind, claims_about, claims_text, count_claims, format_span, join_objects,
+    as_read, certainty_kind, claims_about, claims_text, count_claims, format_span, group_by_key,
+    join_objects,
 };
 pub(crate) use itertools::Itertools;
 pub(crate) use num_bigint::BigUint;

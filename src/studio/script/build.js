@@ -11,13 +11,9 @@ const SLIDES = ["prismatic"];
 /** Points that a drawing put at the free ends of links. */
 const isEnd = (id) => /^end \d+$/.test(id);
 
+const axisAlong = (k) => [0, 1, 2].map((i) => (i === k ? 1 : 0));
 /** The axis of a new joint: that of a turn looks at the reader, a slide or a screw goes to the right. */
-function axisFor(kind) {
-  const out = [0, 0, 0];
-  const k = depthAxis();
-  out[[...SLIDES, "helical"].includes(kind) ? paperAxes()[0] : k] = 1;
-  return out;
-}
+const axisFor = (kind) => axisAlong([...SLIDES, "helical"].includes(kind) ? paperAxes()[0] : depthAxis());
 
 /** A joint more. */
 function newJoint(links, point, kind, also, more = {}) {
@@ -48,11 +44,9 @@ function ending(link, spot, also) {
 }
 
 function newEnd(link, point, also) {
-  let n = 1;
-  const taken = new Set([...listOf("point").map((p) => p.id), ...also.ends]);
-  while (taken.has(`end ${n}`)) n += 1;
-  also.ends.push(`end ${n}`);
-  return add("point", { id: `end ${n}`, link, point });
+  const id = freeName("point", also.ends, (n) => `end ${n}`);
+  also.ends.push(id);
+  return add("point", { id, link, point });
 }
 
 const nothingYet = () => ({ joints: [], ends: [], gone: [] });
@@ -93,7 +87,7 @@ function addScrew([bearing, nut]) {
   const link = linkOfSpot(nut);
   if (!link || link === frameOf()) return say("Click the bearing first, then a pin or a link that carries the nut.", true);
   const along = minus(nut.at, bearing.at).map(Math.abs);
-  const axis = along.map((x, i) => (i === along.indexOf(Math.max(...along)) ? 1 : 0));
+  const axis = axisAlong(along.indexOf(Math.max(...along)));
   const id = freeLink();
   const also = [];
   const drive = listOf("joint").some((j) => j.drive) ? {} : { drive: true };
@@ -110,9 +104,7 @@ async function addContact(spot) {
   const id = object?.id ?? freeId("link", "part");
   const edits = object ? [] : [add("link", { id, role: "object" })];
   const kind = type === "revolute" ? "fixed" : type;
-  const axis = [0, 0, 0];
-  axis[paperAxes()[1]] = 1;
-  await change(...edits, newJoint([link, id], spot.point, kind, [], { axis, state: "clamped" }));
+  await change(...edits, newJoint([link, id], spot.point, kind, [], { axis: axisAlong(paperAxes()[1]), state: "clamped" }));
   say(`Link ${link} touches ${id} there in the state clamped, as ${kind}.`);
 }
 

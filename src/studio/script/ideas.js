@@ -37,7 +37,7 @@ function ideaRow(v, n) {
   const none = v.changes.length === 0;
   const row = element("button", { type: "button", class: "idea", disabled: none ? "" : null, title: none ? null : "Apply this idea to the file; Undo reverts it" },
     element("span", { class: "idea-words" }, ...unbroken(changeLine(v))), element("small", {}, figures));
-  const out = element("li", {}, pointer(row, looked("idea", n), looked("idea", null), () => takeIdea(n)));
+  const out = element("li", {}, pointer(row, "idea", n, () => takeIdea(n)));
   const rows = whyOf(n);
   if (rows.length) out.append(element("details", { open: n === 0 ? "" : null }, element("summary", {}, "Why"), listRows(rows)));
   if (desk.ideas.found.variants.length > 1) {
@@ -54,7 +54,7 @@ function comparison(variants) {
   if (compared.length < 2) return [];
   const columns = compared.map((n) => new Map([["changes", changeLine(variants[n])], ...figuresOf(variants[n]), ...whyOf(n)]));
   const keys = [...new Set(columns.flatMap((c) => [...c.keys()]))].filter((k) => columns.some((c) => c.get(k)));
-  const head = element("tr", {}, element("td", {}), ...compared.map((n) => element("th", { scope: "col" }, pointer(button(`Idea ${n + 1}`, () => takeIdea(n)), looked("idea", n), looked("idea", null)))));
+  const head = element("tr", {}, element("td", {}), ...compared.map((n) => element("th", { scope: "col" }, pointer(button(`Idea ${n + 1}`, () => takeIdea(n)), "idea", n))));
   const row = (k) => {
     const cells = columns.map((c) => c.get(k) || "–");
     return element("tr", { class: cells[0] === cells[1] ? null : "differs" }, element("th", { scope: "row" }, k), ...cells.map((c) => element("td", {}, ...unbroken(c))));
@@ -79,11 +79,8 @@ function widen(step, n) {
 /** The reasons why nothing is found, with a button for each request that finds something. */
 function nothingFound({ found, hopeless, wider }) {
   const opens = (step) => Number(step.allow.length + step.unloading.length > 0);
-  const row = ([step, n]) => {
-    const made = element("button", { type: "button", class: "idea offer" }, `Show ${step.gives.replace(/^Allow more joint types: there are/, "the")}`);
-    made.addEventListener("click", () => widen(step, n));
-    return element("li", {}, made);
-  };
+  const offer = (step) => element("button", { type: "button", class: "idea offer" }, `Show ${step.gives.replace(/^Allow more joint types: there are/, "the")}`);
+  const row = ([step, n]) => element("li", {}, acted(offer(step), () => widen(step, n)));
   const words = hopeless.map((why) => `${why}.`).join(" ") || (wider.length ? "No redesign meets the conditions." : "No redesign meets the conditions. Allow more joint types.");
   const fixed = [...new Set([...(found.unchanged ?? []), ...(found.frozen ?? [])])].filter((id) => thing("joint", id));
   const open = (id) => button(`Joint types at ${id}`, () => {

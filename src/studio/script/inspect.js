@@ -35,8 +35,7 @@ function triple(what, id, key, value, words) {
 
 function choice(label, options, now, take) {
   const box = element("select", {}, ...options.map(([value, words]) => element("option", { value, selected: value === now ? "" : null }, words)));
-  box.addEventListener("change", () => take(box.value));
-  return element("label", { class: "field" }, element("span", {}, label), box);
+  return element("label", { class: "field" }, element("span", {}, label), acted(box, () => take(box.value), "change"));
 }
 
 /** Another name, wherever the file has it. */
@@ -44,7 +43,7 @@ const rename = (what, id) => (to) => change({ do: "rename", what, id, to: to.tri
 
 /** Along which axis, as a click. */
 function axisButtons(id) {
-  const along = (k) => () => change(set("joint", id, "axis", [0, 1, 2].map((i) => (i === k ? 1 : 0))));
+  const along = (k) => () => change(set("joint", id, "axis", axisAlong(k)));
   return element("span", { class: "axes", role: "group", "aria-label": "Axis along" }, ...[0, 1, 2].map((k) => button("xyz"[k], along(k), `axis along ${"xyz"[k]}`)));
 }
 

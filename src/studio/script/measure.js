@@ -82,7 +82,7 @@ function forceArrows() {
     const at = f.point.map(Number);
     const along = f.force.map(Number);
     if ([...at, ...along].some(Number.isNaN)) return [];
-    const way = [dot(camera.view[0], along), -dot(camera.view[1], along)];
+    const way = flatOf(along);
     if (Math.hypot(...way) < 1e-12) return [];
     const to = plus(toPaper(at), times(unit(way), 42));
     return [svgElement("path", { class: "applied", d: path([toPaper(at), to], false) }), head(to, unit(way), 9, "applied")];

@@ -30,24 +30,19 @@ const toggled = (list, kind, on) => (on ? [...list, entryOf(kind)] : list.filter
 
 /** A box to tick with a joint type: its symbol, its name and what the trade calls it. */
 function typeBox({ type: kind, trade, about, icon }, on, take) {
-  const box = element("input", { type: "checkbox", checked: on ? "" : null, "data-type": kind });
-  box.addEventListener("change", () => take(box.checked));
   const names = trade.length ? element("small", {}, ` ${trade.join(", ").replaceAll("-", " ")}`) : "";
-  return element("label", { class: "type-box", title: about }, box, typeIcon(icon ?? kind), element("span", {}, kind, names));
+  return element("label", { class: "type-box", title: about }, tickBox(on, take, kind), typeIcon(icon ?? kind), element("span", {}, kind, names));
 }
 
-function tick(words, on, take) {
-  const box = element("input", { type: "checkbox", checked: on ? "" : null });
-  box.addEventListener("change", () => take(box.checked));
-  return element("label", { class: "check" }, box, ` ${words}`);
-}
+const tickBox = (on, take, kind = null) => acted(element("input", { type: "checkbox", checked: on ? "" : null, "data-type": kind }), ({ target }) => take(target.checked), "change");
+const tick = (words, on, take) => element("label", { class: "check" }, tickBox(on, take), ` ${words}`);
 
 /** A field with a number that is not negative, or nothing. */
 function numberField(words, value, take, step = 1) {
   const input = element("input", { type: "number", min: 0, step, value: value ?? "", placeholder: step === 1 ? "any" : "none" });
   const whole = (x) => Math.max(0, step === 1 ? Math.round(x) : x);
-  input.addEventListener("change", () => take(input.value === "" ? null : whole(Number(input.value))));
-  return element("label", { class: "number-field" }, element("span", {}, words), input);
+  const done = () => take(input.value === "" ? null : whole(Number(input.value)));
+  return element("label", { class: "number-field" }, element("span", {}, words), acted(input, done, "change"));
 }
 
 /** A row of boxes to tick for the links that a list names. */

@@ -76,16 +76,13 @@ function corner3() {
 const judgedState = () => (preview.answer?.verdict ?? desk.verdict)?.analysis?.states[desk.state] ?? null;
 
 /** The position of a joint of the scene on paper, in the current pose. */
-function jointOnPaper(scene, sight, pose, j) {
-  const p = carried(pose, j.links[0], j.at);
-  return plus(times([dot(sight.view[0], p), -dot(sight.view[1], p)], sight.fit.scale), sight.fit.at);
-}
+const jointOnPaper = ({ fit }, pose, j) => plus(times(flatOf(carried(pose, j.links[0], j.at)), fit.scale), fit.at);
 
 /** The contours, tinted by what is redundant in each. */
 function tints(scene, sight, pose) {
   const state = judgedState();
   if (!state) return [];
-  const at = new Map(scene.joints.filter((j) => j.pair).map((j) => [j.id, jointOnPaper(scene, sight, pose, j)]));
+  const at = new Map(scene.joints.filter((j) => j.pair).map((j) => [j.id, jointOnPaper(sight, pose, j)]));
   const all = state.per_contour.map((c, n) => ({ ...c, n, round: c.joints.map((id) => at.get(id)).filter(Boolean) }));
   const area = (round) => Math.abs(turning(round));
   all.sort((a, b) => area(b.round) - area(a.round));
@@ -162,7 +159,7 @@ function drawSheet(traces) {
   const bending = scene ? bent(scene) : null;
   const paperOf = (p) => {
     const j = home || !scene ? null : scene.joints.find((s) => s.id === p.id && Boolean(s.pair) === (p.what === "joint"));
-    return j ? jointOnPaper(scene, sight, pose, j) : toPaper(previewed(p.at));
+    return j ? jointOnPaper(sight, pose, j) : toPaper(previewed(p.at));
   };
   sheetPins = pins().map((p) => ({ ...p, paper: paperOf(p) }));
   fill("grid", [...gridLines(), ...scaleBar(), ...corner3()]);

@@ -3,15 +3,12 @@
 function card({ name, what }) {
   const picture = element("img", { src: `picture/${encodeURIComponent(name)}.svg`, alt: "", loading: "lazy", width: 150, height: 110 });
   const made = element("button", { type: "button", class: "card" }, picture, element("b", {}, name), element("small", {}, what ?? ""));
-  made.addEventListener("click", async () => {
-    byId("shelf").close();
-    await beginWith({ name });
-  });
-  return made;
+  return acted(made, () => beginWith({ name }));
 }
 
 /** Begins another file; Undo goes back to this one. */
 async function beginWith(what) {
+  byId("shelf").close();
   takeScene.seen = false;
   if (await inTurn("begin", what)) select([]);
 }
@@ -22,7 +19,6 @@ function fileField() {
   input.addEventListener("change", async () => {
     const [file] = input.files;
     if (!file) return;
-    byId("shelf").close();
     await beginWith({ name: file.name.replace(/\.toml$/i, "").replace(/[^\w -]/g, "-"), text: await file.text() });
     input.value = "";
   });

@@ -13,12 +13,8 @@ const paperAxes = () => [0, 1, 2].filter((k) => k !== depthAxis());
 function magnets(without) {
   const all = pins().filter((p) => !without.some((w) => w.what === p.what && w.id === p.id));
   const own = all.map((p) => ({ at: p.at, point: coordinatesOf(p), words: `at ${p.id}`, pin: p }));
-  const images = all.flatMap((p) => paperAxes().filter((k) => Math.abs(p.at[k]) > touching()).map((k) => ({
-    at: p.at.map((x, i) => (i === k ? -x : x)),
-    point: coordinatesOf(p).map((c, i) => (i === k ? negated(c) : c)),
-    words: `mirror image of ${p.id} in ${"xyz"[k]}`,
-    pin: null,
-  })));
+  const images = all.flatMap((p) => paperAxes().filter((k) => Math.abs(p.at[k]) > touching())
+    .map((k) => ({ at: flipped(p.at, k), point: flipped(coordinatesOf(p), k), words: `mirror image of ${p.id} in ${"xyz"[k]}`, pin: null })));
   return [...own, ...images];
 }
 

@@ -26,6 +26,12 @@ const ears = {};
 const hear = (name, act) => (ears[name] ??= []).push(act);
 const tell = (name, value) => (ears[name] ?? []).forEach((act) => act(value));
 
+/** An element of a form, and what it does when it is pressed or changed. */
+function acted(made, act, on = "click") {
+  made.addEventListener(on, act);
+  return made;
+}
+
 /** Says something to who sees it and to who hears it. */
 function say(words, grave = false) {
   byId("said").textContent = words;

@@ -34,18 +34,13 @@ const touching = () => 1e-6 * Math.max(1, ...pins().map((p) => Math.max(...p.at.
 /** All pins at one position. */
 const pinsAt = (at) => pins().filter((p) => apart(p.at, at) < touching());
 
-/** A name that nothing of a kind has. */
-function freeId(what, wanted, also = []) {
+/** The first of numbered names that nothing of a kind has. */
+function freeName(what, also, named) {
   const taken = new Set([...listOf(what).map((t) => t.id), ...also]);
-  if (!taken.has(wanted)) return wanted;
-  for (let n = 2; ; n += 1) if (!taken.has(`${wanted} ${n}`)) return `${wanted} ${n}`;
+  for (let n = 1; ; n += 1) if (!taken.has(named(n))) return named(n);
 }
-
-/** The next number that no link has for a name. */
-function freeLink(also = []) {
-  const taken = new Set([...listOf("link").map((t) => t.id), ...also]);
-  for (let n = 1; ; n += 1) if (!taken.has(String(n))) return String(n);
-}
+const freeId = (what, wanted, also = []) => freeName(what, also, (n) => (n > 1 ? `${wanted} ${n}` : wanted));
+const freeLink = (also = []) => freeName("link", also, String);
 
 let selection = [];
 const isSelected = (what, id) => selection.some((s) => s.what === what && s.id === id);

@@ -112,17 +112,13 @@ async function makeTools() {
   for (const [name, { key, name: words, says, mark }] of Object.entries(TOOLS)) {
     const icon = svgElement("svg", { viewBox: "0 0 20 20", width: 20, height: 20, "aria-hidden": "true", class: "tool-icon" });
     icon.append(svgElement("path", { d: mark }));
-    const button = element("button", { type: "button", "data-tool": name, "aria-pressed": name === "select", title: `${words} (${key.toUpperCase()}): ${says}` }, icon, element("span", {}, words));
-    button.addEventListener("click", () => takeTool(name));
-    bar.append(button);
+    bar.append(acted(element("button", { type: "button", "data-tool": name, "aria-pressed": name === "select", title: `${words} (${key.toUpperCase()}): ${says}` }, icon, element("span", {}, words)), () => takeTool(name)));
   }
   palette = await (await fetch("palette")).json();
   const types = element("div", { id: "types", role: "group", "aria-label": "Joint types" });
   for (const { type: kind, class: word, free, about, axis } of palette) {
     const tip = `${kind}, class ${word}: ${about} Free: ${free.join(", ") || "nothing"}. Axis: ${axis}.`;
-    const button = element("button", { type: "button", "data-type": kind, "aria-pressed": kind === type, "aria-label": kind, title: tip }, typeIcon(kind));
-    button.addEventListener("click", () => chooseType(kind));
-    types.append(button);
+    types.append(acted(element("button", { type: "button", "data-type": kind, "aria-pressed": kind === type, "aria-label": kind, title: tip }, typeIcon(kind)), () => chooseType(kind)));
   }
   bar.append(types);
 }

@@ -1,17 +1,15 @@
 // The verdict: W and σ, contour by contour, self-stresses and idle freedoms to be pointed at, what is meant by rounded digits.
 
 /** Something to be pointed at, and chosen: by mouse, or by focus. */
-function pointer(made, on, off, chosen = null) {
-  for (const name of ["pointerenter", "focus"]) made.addEventListener(name, on);
-  for (const name of ["pointerleave", "blur"]) made.addEventListener(name, off);
-  if (chosen) made.addEventListener("click", chosen);
-  return made;
+function pointer(made, key, value, chosen = null) {
+  for (const [name, seen] of [["pointerenter", value], ["focus", value], ["pointerleave", null], ["blur", null]]) {
+    made.addEventListener(name, () => {
+      pointedAt[key] = seen;
+      redraw();
+    });
+  }
+  return chosen ? acted(made, chosen) : made;
 }
-
-const looked = (key, value) => () => {
-  pointedAt[key] = value;
-  redraw();
-};
 
 /** States as tabs. */
 function tabs(states) {
@@ -40,7 +38,7 @@ function chooseState(n) {
 function contourRows(s) {
   return s.per_contour.map((c, n) => pointer(
     element("button", { type: "button", class: "row-button" }, element("span", { class: `chip s${Math.min(c.redundant, 6)}` }, String(c.redundant)), ` ${c.contour}`, element("small", {}, ` ${c.least === c.greatest ? c.least : `${c.least} to ${c.greatest}`} in any loop order`)),
-    looked("contour", n), looked("contour", null), () => select(c.joints.map((id) => ({ what: "joint", id })))));
+    "contour", n, () => select(c.joints.map((id) => ({ what: "joint", id })))));
 }
 
 /** The self-stress that a place in the list of the verdict has among those that are drawn, and back. */
@@ -53,7 +51,7 @@ function stressRows(s) {
     const k = drawnStress(scene, n);
     const words = k < 0 ? `borne by ${t.joints.map((j) => j.joint).join(", ")} (${t.verdict})` : scene.stresses[k].name.replace(/^self-stress \d+: /, "");
     const row = element("button", { type: "button", class: "row-button" }, words);
-    return k < 0 ? row : pointer(row, looked("stress", k), looked("stress", null));
+    return k < 0 ? row : pointer(row, "stress", k);
   });
 }
 
@@ -66,11 +64,7 @@ function wiggle(n) {
   if (!going) start();
 }
 
-const idleRows = (s) => s.idle.map((t, n) => {
-  const row = element("button", { type: "button", class: "row-button" }, t.text, element("small", {}, " wiggle"));
-  row.addEventListener("click", () => wiggle(n));
-  return row;
-});
+const idleRows = (s) => s.idle.map((t, n) => acted(element("button", { type: "button", class: "row-button" }, t.text, element("small", {}, " wiggle")), () => wiggle(n)));
 
 const block3 = (head, rows, more = null) => (rows.length ? element("details", { open: rows.length <= 6 ? "" : null }, element("summary", {}, `${head} (${rows.length})`), more, element("div", { class: "rows" }, ...rows)) : null);
 
@@ -95,7 +89,7 @@ function nextSteps(s) {
   }
   const pinned = (p) => {
     const spot = { pin: pins().find((q) => q.what === "point" && q.id === p.id), link: null, at: placeOf("point", p.id), point: p.point };
-    return pointer(button(`Pin ${p.id} to the frame`, () => ground(spot)), looked("pin", spot.pin), looked("pin", null));
+    return pointer(button(`Pin ${p.id} to the frame`, () => ground(spot)), "pin", spot.pin);
   };
   const buttons = !s || isOpen(s) || loose.length ? ends.slice(0, 4).map(pinned) : [];
   return next.length ? [element("div", { class: "next" }, ...next.map((words) => element("p", {}, words)), element("div", { class: "acts" }, ...buttons))] : [];

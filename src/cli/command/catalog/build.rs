@@ -1,7 +1,7 @@
 //! `ozols catalog build`.
 
 use super::chains::parse_pair_kind;
-use super::task::{TaskArgs, parse_word};
+use super::task::{TaskArgs, one_of};
 use crate::catalog::build::{build_rows, plan_work};
 use crate::catalog::spec::{Parallel, Spec, SpecError};
 use crate::catalog::store::Store;
@@ -24,16 +24,16 @@ pub(crate) struct Build {
     #[arg(long, value_name = "N")]
     jaws: Option<usize>,
     /// Motion of the driver: slide, turn [default: both].
-    #[arg(long, value_name = "INPUT", value_delimiter = ',', value_parser = input)]
+    #[arg(long, value_name = "INPUT", value_delimiter = ',', value_parser = one_of(&Input::ALL))]
     #[serde(rename = "inputs")]
     input: Vec<Input>,
     /// Symmetries of the layouts: generic, mirror (with a slide), half-turn (with a turning input), threefold (three jaws, in a
     /// plane with a turning input, about an axis with a slide) [default: all].
-    #[arg(long, value_name = "SYMMETRY", value_delimiter = ',', value_parser = symmetry)]
+    #[arg(long, value_name = "SYMMETRY", value_delimiter = ',', value_parser = one_of(&Symmetry::ALL))]
     #[serde(rename = "symmetries")]
     symmetry: Vec<Symmetry>,
     /// Layouts with each jaw on a parallelogram: with, without or only.
-    #[arg(long, value_name = "WORD", value_parser = parallel)]
+    #[arg(long, value_name = "WORD", value_parser = one_of(&Parallel::ALL))]
     parallel: Option<Parallel>,
     /// Pairs in addition to hinges: slide, gear (or rack), slot (pin in a slot, cam, wedge), two-slots (two pins in two slots
     /// between the same links). They are used in symmetric structures of two jaws, threefold ones of three, or any with
@@ -79,18 +79,6 @@ pub(crate) struct Build {
     // Last: what follows would stand under its heading in the help.
     #[command(flatten)]
     task: TaskArgs,
-}
-
-fn input(text: &str) -> Result<Input, String> {
-    parse_word(text, &Input::ALL)
-}
-
-fn symmetry(text: &str) -> Result<Symmetry, String> {
-    parse_word(text, &Symmetry::ALL)
-}
-
-fn parallel(text: &str) -> Result<Parallel, String> {
-    parse_word(text, &Parallel::ALL)
 }
 
 /// Puts given settings over others; false and empty lists are not given.

@@ -2,20 +2,21 @@
 
 use crate::synthesis::task::{Aim, AskedMotion, HeldFrom};
 use clap::Args as ClapArgs;
+use itertools::Itertools;
 use serde::Serialize;
 
 #[derive(Debug, ClapArgs, Serialize)]
 #[command(next_help_heading = "Task")]
 pub(super) struct TaskArgs {
     /// Range of part widths in mm, as MIN..MAX [default: 0..50].
-    #[arg(long, value_name = "A..B", value_parser = parse_widths)]
+    #[arg(long, value_name = "A..B", value_parser = |t: &str| parse_two(t, "..", "0..50"))]
     #[serde(skip)]
     pub(super) widths: Option<[f64; 2]>,
     /// Side from which parts are held: outside, or inside a hole [default: outside].
-    #[arg(long, value_name = "SIDE", value_parser = parse_side)]
+    #[arg(long, value_name = "SIDE", value_parser = one_of(&HeldFrom::ALL))]
     grip: Option<HeldFrom>,
     /// Motion of the jaws: any, parallel or swinging [default: any].
-    #[arg(long, value_name = "MOTION", value_parser = parse_motion)]
+    #[arg(long, value_name = "MOTION", value_parser = one_of(&AskedMotion::ALL))]
     motion: Option<AskedMotion>,
     /// Minimum jaw force over the stroke, per 1 N of a sliding or 1 N·m of a rotary drive [default: any].
     #[arg(long, value_name = "N")]
@@ -33,7 +34,7 @@ pub(super) struct TaskArgs {
     #[arg(long, value_name = "X")]
     efficiency: Option<f64>,
     /// Maximum width and height over the stroke of the box around pins, tips and pitch circles, in mm [default: any].
-    #[arg(long, value_name = "WxH", value_parser = parse_room)]
+    #[arg(long, value_name = "WxH", value_parser = |t: &str| parse_two(t, "x", "180x120"))]
     room: Option<[f64; 2]>,
     /// Minimum distance between pins over the stroke, in mm [default: any, and 14 as drawn is preferred].
     #[arg(long, value_name = "MM")]
@@ -49,7 +50,7 @@ pub(super) struct TaskArgs {
     pulled_out: Option<f64>,
     /// Objective for layouts that fulfil the task: balanced (a little of all), or force (the greatest least force of a jaw)
     /// [default: balanced].
-    #[arg(long, value_name = "AIM", value_parser = parse_aim)]
+    #[arg(long, value_name = "AIM", value_parser = one_of(&Aim::ALL))]
     aim: Option<Aim>,
 }
 
@@ -65,30 +66,15 @@ fn parse_two(text: &str, between: &str, such: &str) -> Result<[f64; 2], String> 
     }
 }
 
-fn parse_widths(text: &str) -> Result<[f64; 2], String> {
-    parse_two(text, "..", "0..50")
-}
-
-fn parse_room(text: &str) -> Result<[f64; 2], String> {
-    parse_two(text, "x", "180x120")
-}
-
-pub(super) fn parse_word<T: Copy>(text: &str, all: &[(T, &'static str)]) -> Result<T, String> {
-    let found = all.iter().find(|(_, word)| *word == text);
-    let known: Vec<&str> = all.iter().map(|(_, word)| *word).collect();
-    found
-        .map(|(t, _)| *t)
-        .ok_or_else(|| format!("none of {}", known.join(", ")))
-}
-
-fn parse_side(text: &str) -> Result<HeldFrom, String> {
-    parse_word(text, &HeldFrom::ALL)
-}
-
-fn parse_aim(text: &str) -> Result<Aim, String> {
-    parse_word(text, &Aim::ALL)
-}
-
-fn parse_motion(text: &str) -> Result<AskedMotion, String> {
-    parse_word(text, &AskedMotion::ALL)
+/// Returns a parser of some words.
+pub(super) fn one_of<T: Copy + Send + Sync>(
+    all: &'static [(T, &'static str)],
+) -> impl Fn(&str) -> Result<T, String> + Clone {
+    move |text| {
+        let found = all.iter().find(|(_, word)| *word == text);
+        let known = || all.iter().map(|(_, word)| *word).join(", ");
+        found
+            .map(|(t, _)| *t)
+            .ok_or_else(|| format!("none of {}", known()))
+    }
 }

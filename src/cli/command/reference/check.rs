@@ -94,12 +94,8 @@ fn warn_of_drives(m: &Mechanism, warnings: &mut Warnings) {
     warnings.add(faults.collect());
 }
 
-/// A figure that the file states, and what the analysis finds.
-struct StatedFigure {
-    key: &'static str,
-    stated: Option<i64>,
-    found: Option<i64>,
-}
+/// A key, the figure that the file states, and what the analysis finds.
+type StatedFigure = (&'static str, Option<i64>, Option<i64>);
 
 /// Returns the figures that a file can state of a state, in the order of their warnings.
 fn stated_figures(e: &Expected, found: &StateAnalysis) -> [StatedFigure; 6] {
@@ -108,15 +104,14 @@ fn stated_figures(e: &Expected, found: &StateAnalysis) -> [StatedFigure; 6] {
     let finite = e.finite_mobility.filter(|&w| found.finite.could_be(w));
     let external = found.external.map(|x| x.by_rank);
     let finite = finite.or(int(found.finite.mobility));
-    let figure = |key, stated, found| StatedFigure { key, stated, found };
     let [working, local] = [found.working_mobility, found.local_mobility].map(int);
     [
-        figure("mobility", e.mobility, int(found.mobility)),
-        figure("finite_mobility", e.finite_mobility, finite),
-        figure("working_mobility", e.working_mobility, working),
-        figure("local_mobility", e.local_mobility, local),
-        figure("redundant", e.redundant, int(found.redundant)),
-        figure("external_redundant", e.external_redundant, external),
+        ("mobility", e.mobility, int(found.mobility)),
+        ("finite_mobility", e.finite_mobility, finite),
+        ("working_mobility", e.working_mobility, working),
+        ("local_mobility", e.local_mobility, local),
+        ("redundant", e.redundant, int(found.redundant)),
+        ("external_redundant", e.external_redundant, external),
     ]
 }
 
@@ -135,7 +130,7 @@ fn warn_of_stale(m: &Mechanism, warnings: &mut Warnings) {
         let Some(found) = found.first().filter(|f| f.at_most().is_none()) else {
             continue;
         };
-        for StatedFigure { key, stated, found } in stated_figures(e, found) {
+        for (key, stated, found) in stated_figures(e, found) {
             let (Some(stated), Some(found)) = (stated, found) else {
                 continue;
             };

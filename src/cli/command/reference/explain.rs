@@ -60,10 +60,7 @@ fn table_of_terms(terms: &Terms, width: Option<u16>) -> String {
 
 fn explain_term(terms: &Terms, term: &GlossaryTerm) -> String {
     let width = usize::from(output::output_width(None).unwrap_or(COLUMNS).min(COLUMNS));
-    let row = |head: &str, text: &str| {
-        let options = textwrap::Options::new(width).subsequent_indent("           ");
-        textwrap::fill(&format!("  {head:<8} {text}"), options)
-    };
+    let row = |head: &str, text: &str| fill_row(head, 9, text, width);
     let about = textwrap::fill(&term.text, width);
     let also = (!term.also.is_empty()).then(|| row("also", &term.also.join(", ")));
     let related = row("related", &term.related.join(", "));
@@ -72,6 +69,13 @@ fn explain_term(terms: &Terms, term: &GlossaryTerm) -> String {
     let sources = sources.map(|s| row("source", terms.sources.get(s).unwrap_or(s)));
     let rows = also.into_iter().chain([related, see]).chain(sources);
     format!("{}\n\n{about}\n\n{}\n", term.name, rows.format("\n"))
+}
+
+/// Returns a text after its head, which takes `room` columns, broken into lines of some width.
+fn fill_row(head: &str, room: usize, text: &str, width: usize) -> String {
+    let indent = " ".repeat(room + 2);
+    let options = textwrap::Options::new(width).subsequent_indent(&indent);
+    textwrap::fill(&format!("  {head:<room$}{text}"), options)
 }
 
 /// Returns the name of a joint type as files spell it.
@@ -126,12 +130,7 @@ fn explain_type(of: &JointType) -> anyhow::Result<Done> {
 
 /// Returns freedoms, class, axes, cost and hardware, a paragraph each.
 fn type_figures(of: &JointType, w: &PairWords, width: usize) -> Vec<String> {
-    let row = |head: &str, text: &str| {
-        let options = textwrap::Options::new(width)
-            .initial_indent("  ")
-            .subsequent_indent("             ");
-        textwrap::fill(&format!("{head:<11}{text}"), options)
-    };
+    let row = |head: &str, text: &str| fill_row(head, 11, text, width);
     let freedoms = match of.freedoms() {
         [] => "none".to_owned(),
         list => list

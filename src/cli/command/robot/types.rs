@@ -2,9 +2,9 @@
 
 use crate::cli::option::variant;
 use crate::cli::prelude::*;
-use crate::geom::vector::Vector;
 use crate::robots::{Origin, find_releases};
 use crate::score::run::Event;
+use crate::view::group_by_key;
 use crate::view::lint::TypeChange;
 use anyhow::anyhow;
 
@@ -97,15 +97,11 @@ pub(crate) fn name_changes(
     if !origin.is_assembly() {
         return None;
     }
-    let mut all: Vec<(JointId, Vec<(bool, Vector)>)> = Vec::new();
-    for release in releases {
+    let added = releases.iter().map(|release| {
         let (joint, slides, direction) = release.added_freedom()?;
-        match all.iter_mut().find(|(j, _)| *j == joint) {
-            Some((_, more)) => more.push((slides, direction)),
-            None => all.push((joint, vec![(slides, direction)])),
-        }
-    }
-    let change =
-        |(j, more): &(JointId, Vec<(bool, Vector)>)| TypeChange::at_joint(m, origin, *j, more);
+        Some((joint, (slides, direction)))
+    });
+    let all = group_by_key(added.collect::<Option<Vec<_>>>()?);
+    let change = |(j, more): &(_, Vec<_>)| TypeChange::at_joint(m, origin, *j, more);
     all.iter().map(change).collect()
 }

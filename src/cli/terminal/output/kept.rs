@@ -1,7 +1,9 @@
 //! Protection of inputs and earlier outputs from being overwritten, and temporary files next to the files they replace, so that these
 //! are either complete or unchanged.
 
+use crate::api::folder_of;
 use crate::file::disk;
+use crate::studio;
 use anyhow::ensure;
 use itertools::Itertools;
 use std::ffi::OsString;
@@ -73,8 +75,7 @@ pub(crate) fn ensure_distinct(outputs: &[(&str, PathBuf)]) -> anyhow::Result<()>
 
 /// Returns the whole path of a file that exists or will be made, without links.
 fn canonical_path(path: &Path) -> PathBuf {
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
-    let folder = || fs::canonicalize(folder.unwrap_or(Path::new("."))).ok();
+    let folder = || fs::canonicalize(folder_of(path)).ok();
     let new = || Some(folder()?.join(path.file_name()?));
     let there = fs::canonicalize(path).ok();
     there.or_else(new).unwrap_or_else(|| path.to_path_buf())
@@ -138,9 +139,6 @@ fn is_database(path: &Path) -> bool {
     path.is_file() && File::open(path).is_ok_and(begins)
 }
 
-/// Prefix of the names of such files.
-const PREFIX: &str = ".tmp-ozols-";
-
 /// The file that is being written, which is removed if the program ends before it is complete.
 static BESIDE: Mutex<Option<PathBuf>> = Mutex::new(None);
 
@@ -163,17 +161,10 @@ pub(crate) fn remove_unfinished() {
     }
 }
 
-/// Begins a file in a folder. It may be read by whom the umask lets, because it becomes a result.
+/// Begins a file in a folder.
 pub(super) fn begin_file(folder: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(PREFIX);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
     let mut beside = lock_beside();
-    let file = builder.tempfile_in(folder)?;
+    let file = studio::begin_file(folder)?;
     *beside = Some(file.path().to_path_buf());
     Ok(file)
 }

@@ -12,23 +12,22 @@ pub(crate) mod frame;
 /// Pictures a second.
 pub(crate) const RATE: usize = 30;
 
-/// A motion to be drawn.
-#[derive(Debug, Clone, Copy)]
-pub struct Moved<'a> {
+/// A motion.
+#[derive(Debug)]
+pub struct Moving {
     /// The pose of the file, which has the links' sizes.
-    pub pose: &'a Pose,
+    pub(crate) pose: Pose,
     /// The motion of the drive.
-    pub way: &'a Way,
+    pub(crate) way: Way,
     /// The drive and how far it goes, in words.
-    pub words: &'a str,
-    /// A unit for positions of the way: what 1 is in it, and its symbol.
-    pub unit: (f64, &'a str),
-    /// A self-stress of the pose of the file with its name, to be shown in every pose.
-    pub stress: Option<(&'a str, &'a SelfStress)>,
+    pub(crate) words: String,
+    /// The unit of positions of the way: what 1 is in it, and its symbol, the file's length unit where the drive slides.
+    pub(crate) unit: (f64, &'static str),
 }
 
 /// Draws the kinematic scheme over a motion, animated by a style sheet: the pose of the file stands still for readers who want
-/// less motion, on paper and in programs that know no animation.
+/// less motion, on paper and in programs that know no animation. A self-stress of the pose of the file, given with its name, is shown in
+/// every pose.
 ///
 /// # Examples
 /// ```
@@ -36,32 +35,35 @@ pub struct Moved<'a> {
 /// let four_bar = ozols::built_in("four-bar")?;
 /// let moving = Moving::new(&four_bar, StateId::FREE, None, None).expect("the crank turns");
 /// let subject = Subject { mechanism: &four_bar, state: StateId::FREE, analysis: None, marks: None };
-/// assert!(kinematic_moving(&subject, &Sight::default(), &moving.as_moved()).svg.contains("@keyframes"));
+/// assert!(kinematic_moving(&subject, &Sight::default(), &moving, None).svg.contains("@keyframes"));
 /// # Ok::<(), ozols::Error>(())
 /// ```
 #[must_use]
-pub fn kinematic_moving(subject: &Subject<'_>, sight: &Sight, moved: &Moved<'_>) -> Drawing {
+pub fn kinematic_moving(
+    subject: &Subject<'_>,
+    sight: &Sight,
+    moving: &Moving,
+    stress: Option<(&str, &SelfStress)>,
+) -> Drawing {
     let mut rest = Kinematic::new(subject, sight);
-    let (poses, start) = (poses_of(moved), moved.way.start);
+    let (poses, start) = (moving.poses(), moving.way.start);
     let lines = rest.moving_lines(&poses);
     let frames = poses.iter().map(|c| rest.picture_in(Some(c), &lines));
     let mut frames: Vec<MovingPicture> = frames.collect();
-    let arrows = moved
-        .stress
-        .map(|(_, s)| rest.arrows_along(s, &poses, start));
+    let arrows = stress.map(|(_, s)| rest.arrows_along(s, &poses, start));
     for (frame, arrows) in frames.iter_mut().zip(arrows.into_iter().flatten()) {
         frame.arrows = arrows;
     }
-    rest.traces = (rest.traced_ways(&poses), moved.way.closed);
-    let stress = moved.stress.map(|(name, _)| format!("; {name}"));
-    rest.shows = Some(moved.words.to_owned() + &stress.unwrap_or_default());
+    rest.trace_motion(moving, &poses);
+    let stress = stress.map(|(name, _)| format!("; {name}"));
+    rest.shows = Some(moving.words.clone() + &stress.unwrap_or_default());
     let mut legend = rest.legend_rows();
     legend.extend(flag_row(&frames[start]));
     legend.extend(rest.arrow_rows(&frames[start].arrows));
     let arrows = frames.iter().filter_map(|f| rest.arrow_room(&f.arrows));
     let area = arrows.fold(rest.room_of(&frames, start), |all, r| all.with(&r));
     rest.on_sheet(area, legend, |sheet, by| {
-        sheet.write_style(&animation_style(frames.len(), moved.way.closed));
+        sheet.write_style(&animation_style(frames.len(), moving.way.closed));
         sheet.draw_group("data-drawing", "", by, |s| {
             rest.draw_traces(s);
             rest.draw_ground(s);
@@ -70,31 +72,44 @@ pub fn kinematic_moving(subject: &Subject<'_>, sight: &Sight, moved: &Moved<'_>)
     })
 }
 
-/// Draws the kinematic scheme at the pose of the file, with the paths of its points over a motion.
+/// Draws the kinematic scheme at the pose of the file, with the paths of its points over a motion and perhaps a self-stress.
 #[must_use]
-pub fn kinematic_along(subject: &Subject<'_>, sight: &Sight, moved: &Moved<'_>) -> Drawing {
+pub fn kinematic_along(
+    subject: &Subject<'_>,
+    sight: &Sight,
+    moving: &Moving,
+    stress: Option<(&str, &SelfStress)>,
+) -> Drawing {
     let mut rest = Kinematic::new(subject, sight);
-    let poses = poses_of(moved);
-    rest.traces = (rest.traced_ways(&poses), moved.way.closed);
-    rest.show_stress(moved.stress);
+    rest.trace_motion(moving, &moving.poses());
+    rest.show_stress(stress);
     rest.draw_sheet()
 }
 
-/// Returns the poses of a motion, each once.
-pub(super) fn poses_of<'m>(moved: &Moved<'m>) -> Vec<Carried<'m>> {
-    let links = moved.way.links.iter().map(Vec::as_slice);
-    let of = links.map(|links| Carried {
-        pose: moved.pose,
-        links,
-    });
-    let mut poses: Vec<Carried<'_>> = of.collect();
-    if moved.way.closed {
-        poses.pop();
+impl Moving {
+    /// Returns the poses, each once.
+    pub(super) fn poses(&self) -> Vec<Carried<'_>> {
+        let pose = &self.pose;
+        let links = self.way.links.iter();
+        let mut poses: Vec<Carried<'_>> = links.map(|links| Carried { pose, links }).collect();
+        if self.way.closed {
+            poses.pop();
+        }
+        poses
     }
-    poses
 }
 
 impl Kinematic<'_> {
+    /// Shows the path of each point over the poses of a motion.
+    pub(super) fn trace_motion(&mut self, moving: &Moving, poses: &[Carried<'_>]) {
+        let tips = self.traced_tips().into_iter();
+        let of = tips.map(|(link, tip)| {
+            let at = |c: &Carried<'_>| self.projection.flat_point(c.carried_point(link, tip));
+            poses.iter().map(at).collect()
+        });
+        self.traces = (of.collect(), moving.way.closed);
+    }
+
     /// Draws each symbol once, and the pictures that use them.
     fn draw_frames(&self, sheet: &mut Sheet, frames: &[MovingPicture], start: usize) {
         let m = self.subject.mechanism;

@@ -5,7 +5,7 @@ use crate::draw::kinematic::{Kinematic, Spot};
 use crate::draw::place::projection::places::shown_places;
 use crate::draw::place::projection::{self, Projection, ToBeSeen};
 use crate::draw::prelude::*;
-use crate::draw::subject::roominess;
+use crate::draw::subject::{joints_of_link, roominess};
 use crate::draw::symbol::ground::{Ground, GroundSpot};
 use crate::draw::symbol::placed::{Symbol, one_place, symbol_sizes};
 use crate::draw::symbol::symbols::{driven_slides, side_of_slide};
@@ -107,16 +107,8 @@ impl<'a> Kinematic<'a> {
 
 /// Returns the links of some joints, each with the indices of its joints.
 fn joined_links(m: &Mechanism, joints: &[JointId]) -> Vec<(LinkId, Vec<usize>)> {
-    let mut links = Vec::new();
-    for l in m.link_ids() {
-        let of: Vec<usize> = (0..joints.len())
-            .filter(|&i| m.joints[joints[i]].links.contains(&l))
-            .collect();
-        if !of.is_empty() {
-            links.push((l, of));
-        }
-    }
-    links
+    let links = m.link_ids().map(|l| (l, joints_of_link(m, joints, l)));
+    links.filter(|(_, of)| !of.is_empty()).collect()
 }
 
 /// Returns the space for the joints. Symbols do not grow, so a large number of joints needs more space.

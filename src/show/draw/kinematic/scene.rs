@@ -4,7 +4,7 @@
 
 use crate::draw::kinematic::body::{Arrow, known_loads};
 use crate::draw::kinematic::moving::frame::Carried;
-use crate::draw::kinematic::moving::{Moved, flag_row, poses_of};
+use crate::draw::kinematic::moving::{Moving, flag_row};
 use crate::draw::kinematic::{Kinematic, MovingPicture};
 use crate::draw::prelude::*;
 use crate::draw::symbol::pieces::{Piece, round_hundredth};
@@ -46,42 +46,37 @@ pub struct Scene {
     swaps: Vec<Value>,
 }
 
-/// Parts of a scene that are shown in addition to the mechanism.
-#[derive(Debug, Clone, Copy)]
-pub struct Shown<'a> {
-    /// The motions, at least one, which may be of one pose.
-    pub moves: &'a [Moved<'a>],
-    /// The self-stresses, each with a name.
-    pub stresses: &'a [(String, &'a SelfStress)],
-    /// What redesigns may put at its joints.
-    pub swaps: &'a [Swap<'a>],
-}
-
-/// Draws the kinematic scheme at the pose of its first motion, with the data for pictures of other poses. Its groups can be
-/// replaced by such pictures: `data-scene` marks moving parts, `data-home` parts of this view only.
+/// Draws the kinematic scheme at the pose of the first of some motions, with the data for pictures of other poses. There is at least one
+/// motion, which may be of one pose; self-stresses have names; swaps are what redesigns may put at the joints. Groups of the drawing can
+/// be replaced by such pictures: `data-scene` marks moving parts, `data-home` parts of this view only.
 #[must_use]
-pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -> (Drawing, Scene) {
-    let mut rest = Kinematic::new(subject, sight);
-    let of: Vec<Vec<Carried<'_>>> = shown.moves.iter().map(poses_of).collect();
+pub fn kinematic_scene(
+    subject: &Subject<'_>,
+    moves: &[Moving],
+    stresses: &[(String, &SelfStress)],
+    swaps: &[Swap<'_>],
+) -> (Drawing, Scene) {
+    let mut rest = Kinematic::new(subject, &Sight::default());
+    let of: Vec<Vec<Carried<'_>>> = moves.iter().map(Moving::poses).collect();
     let mut scene = rest.build_scene();
-    scene.swaps = rest.swap_in(&mut scene, shown.swaps);
+    scene.swaps = rest.swap_in(&mut scene, swaps);
     let mut frames = Vec::new();
-    for (n, (moved, poses)) in shown.moves.iter().zip(&of).enumerate() {
+    for (n, (moving, poses)) in moves.iter().zip(&of).enumerate() {
         let lines = rest.moving_lines(poses);
         frames.extend(poses.iter().map(|c| rest.picture_in(Some(c), &lines)));
         for line in &lines {
             let (class, form) = (line.class, line.form.word());
             scene.add_wire(&rest, line.row, class, form, &line.points, Some(n));
         }
-        scene.add_move(&rest, moved, poses);
+        scene.add_move(&rest, moving, poses);
     }
-    if let (Some(first), Some(poses)) = (shown.moves.first(), of.first()) {
-        rest.traces = (rest.traced_ways(poses), first.way.closed);
+    if let (Some(first), Some(poses)) = (moves.first(), of.first()) {
+        rest.trace_motion(first, poses);
     }
-    let start = shown.moves.first().map_or(0, |m| m.way.start);
+    let start = moves.first().map_or(0, |m| m.way.start);
     let mut area = rest.room_of(&frames, start);
     let mut arrows = Vec::new();
-    for (name, stress) in shown.stresses {
+    for (name, stress) in stresses {
         let own = rest.arrows_of(&known_loads(stress), None);
         area = rest.arrow_room(&own).map_or(area, |r| area.with(&r));
         let arrows_of: Value = own.iter().map(|a| rest.load_json(a)).collect();
@@ -106,8 +101,8 @@ impl Scene {
     }
 
     /// Adds a motion, with the paths of its points relative to the frame.
-    fn add_move(&mut self, rest: &Kinematic<'_>, moved: &Moved<'_>, poses: &[Carried<'_>]) {
-        let way = moved.way;
+    fn add_move(&mut self, rest: &Kinematic<'_>, moving: &Moving, poses: &[Carried<'_>]) {
+        let way = &moving.way;
         let frame = rest.link_row(rest.subject.mechanism.frame_link());
         for (link, tip) in rest.traced_tips() {
             let trace: Vec<Vector> = poses.iter().map(|c| c.carried_point(link, tip)).collect();
@@ -117,12 +112,12 @@ impl Scene {
         }
         let carried = poses.iter().map(|c| rest.carried_in_pixels(c));
         self.moves.push(json!({
-            "name": moved.words,
+            "name": moving.words,
             "closed": way.closed,
             "start": way.start,
             // Positions of the drive, pose by pose.
-            "at": way.at.iter().map(|x| x * moved.unit.0).collect::<Vec<_>>(),
-            "unit": moved.unit.1,
+            "at": way.at.iter().map(|x| x * moving.unit.0).collect::<Vec<_>>(),
+            "unit": moving.unit.1,
             // By pose and link a rotation vector and where the origin goes; nothing where the link rests.
             "poses": carried.collect::<Vec<_>>(),
         }));

@@ -9,7 +9,6 @@
 
 use crate::draw::place::graph::{Graph, Net, build_net, place_hubs};
 use crate::draw::place::initial_layout::{self, Start};
-use crate::draw::place::layout_penalty::Crowding;
 use crate::draw::prelude::*;
 
 /// A finished layout; the unit of length is about the length of a bar.
@@ -32,15 +31,10 @@ struct Candidate {
 
 impl Candidate {
     /// Creates a layout; returns `None` if its cost is not finite.
-    fn new(
-        crowding: &Crowding,
-        mut at: Vec<Point>,
-        start: &Start,
-        favour: f64,
-    ) -> Option<Candidate> {
-        at.truncate(crowding.graph.joints);
+    fn new(graph: &Graph, mut at: Vec<Point>, start: &Start, favour: f64) -> Option<Candidate> {
+        at.truncate(graph.joints);
         let favour = favour * if start.drawn { 0.85 } else { 1.0 };
-        let cost = crowding.layout_cost(&at) * favour;
+        let cost = graph.layout_cost(&at) * favour;
         cost.is_finite().then_some(Candidate {
             cost,
             favour,
@@ -49,18 +43,18 @@ impl Candidate {
     }
 
     /// Polishes it where it is crowded.
-    fn polish_layout(&mut self, crowding: &Crowding) {
-        if !crowding.is_violated(&self.joints) {
+    fn polish_layout(&mut self, graph: &Graph) {
+        if !graph.is_violated(&self.joints) {
             return;
         }
-        crowding.anneal_layout(&mut self.joints);
+        graph.anneal_layout(&mut self.joints);
         // a familiar drawing is worth something, not a crossing
-        let favour = if crowding.is_violated(&self.joints) {
+        let favour = if graph.is_violated(&self.joints) {
             1.0
         } else {
             self.favour
         };
-        self.cost = crowding.layout_cost(&self.joints) * favour;
+        self.cost = graph.layout_cost(&self.joints) * favour;
     }
 }
 
@@ -74,13 +68,12 @@ pub(crate) fn find_layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
         let hubs = place_hubs(graph, &net, &joints);
         return Layout { joints, hubs };
     }
-    let crowding = Crowding { graph };
     let far = path_lengths(&net);
     let nodes = net.edges.len();
     let rounds = (4_000_000 / (nodes * nodes).max(1)).clamp(4, 80);
     let mut candidates: Vec<Candidate> = Vec::new();
     for start in initial_layout::all_starts(graph, &net, hints) {
-        let take = |at: &[Point], favour| Candidate::new(&crowding, at.to_vec(), &start, favour);
+        let take = |at: &[Point], favour| Candidate::new(graph, at.to_vec(), &start, favour);
         candidates.extend(take(&start.at, 1.0));
         let mut relaxed = start.at.clone();
         for part in 0..4 {
@@ -91,7 +84,7 @@ pub(crate) fn find_layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
     candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     candidates.truncate(POLISHED);
     for candidate in &mut candidates {
-        candidate.polish_layout(&crowding);
+        candidate.polish_layout(graph);
     }
     let best = candidates
         .into_iter()

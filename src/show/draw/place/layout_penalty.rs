@@ -11,14 +11,8 @@ const JOINTS: f64 = 0.62;
 /// A joint nearer to a foreign link than this is too near.
 const CLEAR: f64 = 0.36;
 
-/// Judges layouts of a graph.
-#[derive(Debug)]
-pub(crate) struct Crowding<'a> {
-    pub(crate) graph: &'a Graph,
-}
-
-impl Crowding<'_> {
-    /// Returns the cost of the whole layout.
+impl Graph {
+    /// Returns the cost of a whole layout.
     pub(crate) fn layout_cost(&self, at: &[Point]) -> f64 {
         let rings = self.link_rings(at);
         let links: f64 = (0..rings.len())
@@ -46,12 +40,10 @@ impl Crowding<'_> {
             || (0..at.len()).any(|i| (0..i).any(|j| nearness_cost(at[i], at[j]) > 0.2))
     }
 
-    fn link_rings(&self, at: &[Point]) -> Vec<Vec<usize>> {
-        self.graph
-            .links
-            .iter()
-            .map(|of| joint_ring(of, at))
-            .collect()
+    /// Returns the joints of each link in order around their middle.
+    pub(crate) fn link_rings(&self, at: &[Point]) -> Vec<Vec<usize>> {
+        let rings = self.links.iter().map(|of| joint_ring(of, at));
+        rings.collect()
     }
 
     /// Returns the cost of bars of unusual length and polygons of unusual size.
@@ -87,7 +79,7 @@ impl Crowding<'_> {
 
     /// Returns the cost of other links' joints near or on a link.
     fn strangers_cost(&self, l: usize, rings: &[Vec<usize>], at: &[Point]) -> f64 {
-        let own = &self.graph.links[l];
+        let own = &self.links[l];
         let polygon: Vec<Point> = rings[l].iter().map(|&j| at[j]).collect();
         let [low, high] = ring_span(&rings[l], at);
         (0..at.len())
@@ -134,8 +126,7 @@ impl Crowding<'_> {
 
     /// Returns the cost of foreign joints inside contours.
     fn full_contours(&self, at: &[Point]) -> f64 {
-        self.graph
-            .contours
+        self.contours
             .iter()
             .map(|contour| {
                 let polygon: Vec<Point> = contour.iter().map(|&j| at[j]).collect();
@@ -160,7 +151,7 @@ impl Crowding<'_> {
         if n < 2 {
             return;
         }
-        let sides: usize = self.graph.links.iter().map(Vec::len).sum();
+        let sides: usize = self.links.iter().map(Vec::len).sum();
         let moves = (3_000_000 / (8 * (sides + n)).max(1)).clamp(200, 6000);
         let mut random = ChaCha8Rng::seed_from_u64(n as u64);
         let mut unit = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;

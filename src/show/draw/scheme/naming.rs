@@ -14,15 +14,15 @@ impl Scheme<'_> {
             let side = 2.0 * self.joint_radius(i);
             Rect::around(self.at.joints[i], side, side)
         };
-        let mut taken: Vec<Rect> = (0..self.parts.joints.len()).map(around).collect();
+        let mut taken: Vec<Rect> = (0..self.joints.len()).map(around).collect();
         let lines = self.link_lines();
         // ids stay off links, numbers of contours off nothing but labels
         let at_hub = |l: usize, _| (self.at.hubs[l], HALF, self.inside_link(l));
-        let names = self.subject.link_names(&self.parts.links, at_hub);
+        let names = self.subject.link_names(&self.links, at_hub);
         let links = place_names(names, &mut taken, &[]);
         let contours = place_names(self.contour_numbers(), &mut taken, &lines);
         let beside = |(i, &j)| (j, self.at.joints[i], self.joint_radius(i));
-        let spots: Vec<_> = self.parts.joints.iter().enumerate().map(beside).collect();
+        let spots: Vec<_> = self.joints.iter().enumerate().map(beside).collect();
         let joints = place_names(self.subject.joint_names(&spots), &mut taken, &lines);
         [joints, links, contours].concat()
     }
@@ -32,7 +32,7 @@ impl Scheme<'_> {
         let mut lines = Vec::new();
         for l in 0..self.rings.len() {
             let corners = self.link_corners(l);
-            let frame = self.subject.mechanism.links[self.parts.links[l]].role == Role::Frame;
+            let frame = self.subject.mechanism.links[self.links[l]].role == Role::Frame;
             let weight = if frame || corners.len() < 3 { 2.5 } else { 0.6 };
             let hub = self.at.hubs[l];
             lines.extend(corners.iter().map(|&corner| AvoidedLine {
@@ -74,7 +74,7 @@ impl Scheme<'_> {
                 ..Name::small("small".to_owned(), text, [0.0; 2], 0.0)
             }
         };
-        (0..self.parts.contours.len()).map(one).collect()
+        (0..self.contours.len()).map(one).collect()
     }
 
     /// Middles for the id within a link, the best first.
@@ -117,10 +117,7 @@ impl Scheme<'_> {
 
     /// Middles for the number within a contour, the best first: on its own tint if any of that can be seen, near to what is its own.
     fn inside_contour(&self, c: usize) -> Vec<(Point, f64)> {
-        let (of, before) = (
-            &self.parts.graph.contours[c],
-            &self.parts.graph.contours[..c],
-        );
+        let (of, before) = (&self.graph.contours[c], &self.graph.contours[..c]);
         let polygon = self.contour_outline(c);
         let own = of.iter().filter(|j| !before.iter().any(|b| b.contains(j)));
         let own: Vec<Point> = own.map(|&j| self.at.joints[j]).collect();
@@ -155,7 +152,7 @@ impl Scheme<'_> {
     fn free_points(&self, c: usize) -> (Vec<Point>, f64) {
         let polygon = self.contour_outline(c);
         let own = polygon_area(&polygon);
-        let contours = 0..self.parts.contours.len();
+        let contours = 0..self.contours.len();
         let smaller = contours.map(|other| self.contour_outline(other));
         let smaller = smaller.filter(|other| polygon_area(other) < own);
         let plates = (0..self.rings.len()).filter(|&l| self.rings[l].len() > 2);
@@ -185,7 +182,7 @@ const BAND: f64 = 4.0;
 impl Scheme<'_> {
     /// Returns the outline of a contour: its joints, and the bends of bars between them.
     pub(super) fn contour_outline(&self, c: usize) -> Vec<Point> {
-        let of = &self.parts.graph.contours[c];
+        let of = &self.graph.contours[c];
         let mut used = Vec::new();
         let mut out = Vec::new();
         for (i, &j) in of.iter().enumerate() {
@@ -206,7 +203,7 @@ impl Scheme<'_> {
 
     /// Returns the contours, the smallest last and so on top. Each segment has the colour of the contour next to it.
     pub(super) fn contours_by_size(&self) -> Vec<usize> {
-        let mut order: Vec<usize> = (0..self.parts.contours.len()).collect();
+        let mut order: Vec<usize> = (0..self.contours.len()).collect();
         let size = |c: usize| polygon_area(&self.contour_outline(c));
         order.sort_by(|&a, &b| size(b).total_cmp(&size(a)));
         order
@@ -228,7 +225,7 @@ impl Scheme<'_> {
     }
 
     pub(super) fn draw_contour(&self, sheet: &mut Sheet, c: usize, d: &str) {
-        let (contour, share) = &self.parts.contours[c];
+        let (contour, share) = &self.contours[c];
         let redundant = share.map_or(0, |(r, _)| r).min(6);
         let words = Self::contour_words(c, &contour.name(self.subject.mechanism), *share);
         let number = (c + 1).to_string();

@@ -151,16 +151,10 @@ pub(super) fn advice_text(
         );
     }
     // The list is sorted, and so are the groups by their firsts.
-    type Change = (String, usize, i64);
-    let mut groups: Vec<(Change, Vec<&str>)> = Vec::new();
-    for x in &found.list {
-        let key = (describe_change(m, x), x.removes, x.cost_milli);
-        let joint = &*m.joints[x.joint].id;
-        match groups.iter_mut().find(|(k, _)| *k == key) {
-            Some((_, joints)) => joints.push(joint),
-            None => groups.push((key, vec![joint])),
-        }
-    }
+    let groups = group_by_key(found.list.iter().map(|x| {
+        let change = (describe_change(m, x), x.removes, x.cost_milli);
+        (change, &m.joints[x.joint].id)
+    }));
     let rest = match groups.len().saturating_sub(ROWS) {
         0 => String::new(),
         n => format!(

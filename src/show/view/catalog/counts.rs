@@ -12,11 +12,8 @@ use std::collections::BTreeMap;
 /// A row of counts: the keys are a stable contract, in their order.
 pub type CountRow = Map<String, Value>;
 
-fn row_of<K: Into<String>, V: Into<Value>>(cells: impl IntoIterator<Item = (K, V)>) -> CountRow {
-    cells
-        .into_iter()
-        .map(|(key, x)| (key.into(), x.into()))
-        .collect()
+fn row_of(cells: Value) -> CountRow {
+    cells.as_object().cloned().unwrap_or_default()
 }
 
 /// The counts of chains of hinges, each a key and its name: those of chains, of grippers with two jaws, and of grippers with three.
@@ -76,10 +73,10 @@ pub fn hinged_row(links: usize, mobility: usize, chains: u64, census: Option<&Ce
     };
     let counted = counted.into_iter().chain(grippers(2, &TWO_JAWS));
     let counted = counted.chain(grippers(3, &THREE_JAWS));
-    let counted = keys_and_names(OF_HINGES).map(|(key, _)| key).zip(counted);
-    let sizes = [("links", links), ("mobility", mobility)];
-    let sizes = sizes.map(|(key, n)| (key, Some(n as u64)));
-    row_of(sizes.into_iter().chain(counted))
+    let counted = keys_and_names(OF_HINGES).zip(counted);
+    let mut row = row_of(json!({ "links": links, "mobility": mobility }));
+    row.extend(counted.map(|((key, _), n)| (key.to_owned(), json!(n))));
+    row
 }
 
 const HINGED_LEGEND: &str = "\
@@ -126,17 +123,17 @@ pub fn chain_row(chain: &Chain) -> CountRow {
         .join(" ");
     let automorphisms = chain.canonical_form().1;
     let c = Census::of_hinges(&Subject::new(chain, &automorphisms), false);
-    row_of([
-        ("code", json!(graph6::write_graph(chain))),
-        ("links", json!(chain.links())),
-        ("joints", json!(chain.joints().len())),
-        ("mobility", json!(chain.mobility())),
-        ("assortment", json!(assortment)),
-        ("automorphisms", json!(automorphisms.len())),
-        ("frames", json!(c.frames)),
-        ("inputs", json!(c.inputs)),
-        ("drives", json!(c.inputs_at_frame)),
-    ])
+    row_of(json!({
+        "code": graph6::write_graph(chain),
+        "links": chain.links(),
+        "joints": chain.joints().len(),
+        "mobility": chain.mobility(),
+        "assortment": assortment,
+        "automorphisms": automorphisms.len(),
+        "frames": c.frames,
+        "inputs": c.inputs,
+        "drives": c.inputs_at_frame,
+    }))
 }
 
 /// Returns a table of chains.
@@ -200,30 +197,23 @@ pub fn pair_rows(links: usize, all: &BTreeMap<Kinds, Census>) -> Vec<CountRow> {
             slides,
         };
         let g = c.grippers.get(&drive).copied().unwrap_or_default();
-        let sizes = [
-            ("links", links),
-            ("slides", kinds.slides),
-            ("gears", kinds.gears),
-            ("slots", kinds.slots),
-            ("two_slots", kinds.two_slots),
-        ];
-        let chains = [
-            ("chains", c.chains),
-            ("frames", c.frames),
-            ("inputs_at_frame", c.inputs_at_frame),
-            ("inputs_between", c.inputs_between),
-        ];
-        let words = [
-            ("place", either_word(between, ["between", "frame"])),
-            ("jaws", either_word(jaw, ["driven", "apart"])),
-            ("input", either_word(slides, ["slide", "turn"])),
-        ];
-        let sizes = sizes.map(|(key, n)| (key, json!(n))).into_iter();
-        let chains = chains.map(|(key, n)| (key, json!(n)));
-        let words = words.map(|(key, word)| (key, json!(word)));
+        let mut row = row_of(json!({
+            "links": links,
+            "slides": kinds.slides,
+            "gears": kinds.gears,
+            "slots": kinds.slots,
+            "two_slots": kinds.two_slots,
+            "chains": c.chains,
+            "frames": c.frames,
+            "inputs_at_frame": c.inputs_at_frame,
+            "inputs_between": c.inputs_between,
+            "place": either_word(between, ["between", "frame"]),
+            "jaws": either_word(jaw, ["driven", "apart"]),
+            "input": either_word(slides, ["slide", "turn"]),
+        }));
         let grippers = keys_and_names(OF_PAIRS).zip(PAIRED);
-        let grippers = grippers.map(|((key, _), of)| (key, json!(g[of])));
-        row_of(sizes.chain(chains).chain(words).chain(grippers))
+        row.extend(grippers.map(|((key, _), of)| (key.to_owned(), json!(g[of]))));
+        row
     };
     let rows = all.iter().cartesian_product(drives);
     rows.map(|((kinds, c), drive)| row(kinds, c, drive))

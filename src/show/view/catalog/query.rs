@@ -4,7 +4,7 @@ use crate::format::csv;
 use crate::format::plain::escape_control;
 use crate::view::prelude::*;
 use crate::view::terminal::table_of;
-use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
+use serde::ser::{Serialize, Serializer};
 use serde_json::Map;
 
 /// The answer to a question: as JSON a list of objects.
@@ -21,18 +21,10 @@ impl Serialize for QueryAnswer {
         struct QueryRow<'a>(&'a [String], &'a [Value]);
         impl Serialize for QueryRow<'_> {
             fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
-                let mut map = s.serialize_map(Some(self.0.len()))?;
-                for (name, value) in self.0.iter().zip(self.1) {
-                    map.serialize_entry(name, value)?;
-                }
-                map.end()
+                s.collect_map(self.0.iter().zip(self.1))
             }
         }
-        let mut list = s.serialize_seq(Some(self.rows.len()))?;
-        for row in &self.rows {
-            list.serialize_element(&QueryRow(&self.names, row))?;
-        }
-        list.end()
+        s.collect_seq(self.rows.iter().map(|row| QueryRow(&self.names, row)))
     }
 }
 

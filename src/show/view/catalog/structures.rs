@@ -11,7 +11,18 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// A row of a table by its columns.
-type Row = Map<String, Value>;
+pub(crate) type Row = Map<String, Value>;
+
+/// Returns the rows of an answer in SQL, which may be about a structure.
+pub(crate) fn query_maps(
+    store: &Store,
+    sql: &str,
+    id: Option<&str>,
+) -> Result<Vec<Row>, StoreError> {
+    let (names, rows) = store.query_rows(sql, id)?;
+    let map = |row: Vec<Value>| names.iter().cloned().zip(row).collect();
+    Ok(rows.into_iter().map(map).collect())
+}
 
 /// Rows of a catalogue about a structure.
 #[derive(Debug, Clone, serde::Serialize)]
@@ -57,11 +68,7 @@ impl StructureData {
     /// # Errors
     /// Returns an error if the database cannot be read.
     pub fn read_structure(store: &Store, id: &str) -> Result<StructureData, StoreError> {
-        let maps = |sql: &str| -> Result<Vec<Row>, StoreError> {
-            let (names, rows) = store.query_rows(sql, Some(id))?;
-            let map = |row: Vec<Value>| names.iter().cloned().zip(row).collect();
-            Ok(rows.into_iter().map(map).collect())
-        };
+        let maps = |sql: &str| query_maps(store, sql, Some(id));
         let mut structure = maps("SELECT * FROM structures WHERE id = ?1")?;
         let ideas = maps("SELECT * FROM ideas WHERE structure = ?1 ORDER BY place")?;
         let changes = ideas.iter().filter_map(|i| i.get("changes")?.as_str());

@@ -177,21 +177,12 @@ impl Reactions<'_> {
 
     /// Returns which components the choice within the family is about.
     fn left_open(&self) -> String {
-        let mut alike: Vec<(&[bool; 6], Vec<&str>)> = Vec::new();
         let joints = self.found.reactions.iter().zip(&self.found.open);
-        for (r, open) in joints.filter(|(_, open)| open.contains(&true)) {
-            match alike.iter_mut().find(|(known, _)| *known == open) {
-                Some((_, joints)) => joints.push(self.joint_name(r.joint)),
-                None => alike.push((open, vec![self.joint_name(r.joint)])),
-            }
-        }
-        let each = alike.iter();
-        let each = each.map(|(open, joints)| {
-            format!(
-                "{} of {}",
-                join_and(&open_components(open)),
-                join_and(joints)
-            )
+        let joints = joints.filter(|(_, open)| open.contains(&true));
+        let alike = group_by_key(joints.map(|(r, open)| (open, self.joint_name(r.joint))));
+        let each = alike.iter().map(|(open, joints)| {
+            let open = join_and(&open_components(open));
+            format!("{open} of {}", join_and(joints))
         });
         let passed = self.couplings().into_iter().zip(&self.found.couplings_open);
         let passed = passed

@@ -334,8 +334,7 @@ pub(crate) fn variants_table(
 
 /// Returns σ by contour of some variants; equal ones share a line.
 pub(crate) fn contours_text(best: &[Variant<'_>], width: Option<u16>) -> String {
-    let mut alike: Vec<(String, Vec<usize>)> = Vec::new();
-    for v in best {
+    let alike = group_by_key(best.iter().map(|v| {
         let shares = v.redundant_by_contour().into_iter().flatten();
         let some = shares.filter(|(_, s)| s.range.1 > 0).map(|(name, s)| {
             let range = match s.range {
@@ -344,12 +343,8 @@ pub(crate) fn contours_text(best: &[Variant<'_>], width: Option<u16>) -> String 
             };
             format!("{name} {}{range}", s.redundant)
         });
-        let text = some.collect_vec().join(", ");
-        match alike.iter_mut().find(|(known, _)| *known == text) {
-            Some((_, places)) => places.push(v.position()),
-            None => alike.push((text, vec![v.position()])),
-        }
-    }
+        (some.collect_vec().join(", "), v.position())
+    }));
     if let [(one, _)] = &alike[..]
         && one.is_empty()
     {

@@ -190,15 +190,7 @@ pub fn rows_of_ideas(outcome: &Outcome, ideas: &[&Assignment]) -> Vec<Vec<(Strin
 
 /// Returns the rows that have something in common as groups: "what: these, those; other: that".
 fn group_rows(rows: impl Iterator<Item = (String, String)>, between: &str) -> String {
-    let mut groups: Vec<(String, Vec<String>)> = Vec::new();
-    for (what, one) in rows {
-        match groups.iter_mut().find(|(w, _)| *w == what) {
-            Some((_, all)) => all.push(one),
-            None => groups.push((what, vec![one])),
-        }
-    }
-    let mut lines = groups
-        .iter()
-        .map(|(what, all)| format!("{what}{between}{}", all.join(", ")));
+    let groups = group_by_key(rows).into_iter();
+    let mut lines = groups.map(|(what, all)| format!("{what}{between}{}", all.join(", ")));
     lines.join("; ")
 }

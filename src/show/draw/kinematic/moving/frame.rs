@@ -282,16 +282,6 @@ impl Kinematic<'_> {
         out
     }
 
-    /// Returns the path of each point that is shown.
-    pub(crate) fn traced_ways(&self, poses: &[Carried<'_>]) -> Vec<Vec<Point>> {
-        let tips = self.traced_tips().into_iter();
-        let of = tips.map(|(link, tip)| {
-            let at = |c: &Carried<'_>| self.projection.flat_point(c.carried_point(link, tip));
-            poses.iter().map(at).collect()
-        });
-        of.collect()
-    }
-
     /// Returns the points of interest. For an output link without any, returns its free end, or its joints except those
     /// on the frame.
     pub(crate) fn traced_tips(&self) -> Vec<(LinkId, Vector)> {
