@@ -263,6 +263,11 @@ pub(crate) fn root_of_unity(f: Field, order: u64, primes: &[u64]) -> Option<Resi
 fn hash_expressions(exprs: &[&Expr]) -> u64 {
     let mut hash = Sha256::new();
     for e in exprs {
+        // Most are numbers.
+        if let Some(r) = e.rational_ref() {
+            hash.update(format!("{r};\n"));
+            continue;
+        }
         let mut places = HashMap::new();
         for (place, node) in e.post_order().into_iter().enumerate() {
             places.insert(node.id(), place);
