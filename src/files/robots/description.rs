@@ -103,10 +103,10 @@ impl Part {
 
     /// Returns the direction of a freedom in the joint's own frame.
     pub(crate) fn direction(&self, freedom: Freedom) -> Vector {
-        match freedom {
-            Freedom::Rz | Freedom::Tz | Freedom::Screw => self.axis,
-            Freedom::Rx | Freedom::Tx => self.second,
-            Freedom::Ry | Freedom::Ty => cross(self.axis, self.second),
+        match freedom.axis() {
+            0 => self.second,
+            1 => cross(self.axis, self.second),
+            _ => self.axis,
         }
     }
 }

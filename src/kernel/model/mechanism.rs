@@ -2,6 +2,7 @@
 
 use crate::format::four_digits;
 use crate::geom::expr::Expr;
+use crate::geom::vector::{Vector, across, cross, to_vector, unit};
 use crate::model::claim::Claim;
 use crate::model::joint_type::{Coupling, Freedom, JointType};
 use crate::model::loads::{Loads, MassProperties};
@@ -67,6 +68,14 @@ impl Frame {
         self.has_same_axis(other)
             && are_same(&self.reference, &other.reference)
             && self.pitch.is_same(&other.pitch)
+    }
+
+    /// Returns the unit vectors x, y, z.
+    #[must_use]
+    pub fn unit_axes(&self) -> [Vector; 3] {
+        let z = unit(to_vector(&self.axis));
+        let x = unit(across(to_vector(&self.reference), z));
+        [x, cross(z, x), z]
     }
 
     /// Returns true if the points and axes of two frames are written identically; `false` decides nothing.
