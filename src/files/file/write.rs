@@ -255,17 +255,10 @@ fn write_option(m: &Mechanism, o: &JointOption, present: &Frame) -> OptionEntry 
 
 fn write_search(m: &Mechanism) -> SearchEntry {
     let spec = &m.search;
-    let costs = &spec.costs;
-    let others = [
-        ("change", costs.change_milli),
-        ("driven", costs.driven_milli),
-        ("link", costs.link_milli),
-        ("harmful", costs.harmful_milli),
-    ];
-    let others = others
-        .into_iter()
-        .filter_map(|(n, c)| Some((n.to_owned(), c?)));
-    let costs = costs.by_type_milli.iter().cloned().chain(others);
+    let mut costs = spec.costs.clone();
+    let others = costs.other_costs().into_iter();
+    let others = others.filter_map(|(n, c)| Some((n.to_owned(), (*c)?)));
+    let costs = spec.costs.by_type_milli.iter().cloned().chain(others);
     let id = |j: JointId| m.joints[j].id.clone();
     let groups = spec.turn.iter().map(|g| g.iter().map(|&j| id(j)).collect());
     SearchEntry {
