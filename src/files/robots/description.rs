@@ -13,7 +13,7 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::{RigidMotion, perpendicular};
 use crate::geom::vector::{Vector, X, Z, cross};
 use crate::model::joint_type::{Freedom, JointType};
-use crate::robots::warning::{Read, Report};
+use crate::robots::warning::{Found, Read, Report, unknown_name};
 use crate::robots::xml::element::Element;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -259,6 +259,25 @@ impl Robot {
         let at = self.joints.len();
         self.joints.push(part);
         Ok(&mut self.joints[at])
+    }
+
+    /// Returns the link that an element names.
+    ///
+    /// # Errors
+    /// Returns an error that lists the links if there is none of that name.
+    pub(crate) fn link_named(&self, element: &str, name: &str) -> Found<usize> {
+        let found = self.links.iter().position(|l| l == name);
+        found.ok_or_else(|| unknown_name(element, ["link", "links"], name, &self.links))
+    }
+
+    /// Returns the joint that an element names.
+    ///
+    /// # Errors
+    /// Returns an error that lists the joints if there is none of that name.
+    pub(crate) fn joint_named(&self, element: &str, name: &str) -> Found<usize> {
+        let ids = self.joints.iter().map(|j| &j.id);
+        let found = ids.clone().position(|id| id == name);
+        found.ok_or_else(|| unknown_name(element, ["joint", "joints"], name, ids))
     }
 
     /// Returns the link or frame of a name.
