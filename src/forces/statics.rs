@@ -39,6 +39,13 @@ pub(crate) fn greatest_abs<'x>(figures: impl IntoIterator<Item = &'x f64>) -> f6
     sizes.fold(0.0, f64::max)
 }
 
+/// Returns the mean of some points, or the origin if there are none.
+pub(crate) fn mean_point<const N: usize>(points: &[[f64; N]]) -> [f64; N] {
+    #[allow(clippy::cast_precision_loss, reason = "at most a few thousand")]
+    let count = points.len().max(1) as f64;
+    std::array::from_fn(|i| points.iter().fold(0.0, |sum, p| sum + p[i]) / count)
+}
+
 /// Returns the residual of equations relative to the largest load, or unchanged without loads.
 pub(crate) fn over_load(left_over: f64, load: f64) -> f64 {
     left_over / if load > 0.0 { load } else { 1.0 }

@@ -1,6 +1,6 @@
 //! Capacities and clearances of joint types.
 
-use crate::model::mechanism::{Joint, JointOption, Mechanism};
+use crate::model::mechanism::{JointOption, Mechanism};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -57,17 +57,11 @@ impl JointTypes {
     pub fn of(mechanism: &Mechanism) -> JointTypes {
         let mut all = JointTypes::built_in();
         for o in &mechanism.joint_types {
-            let base = match all.by_name.get(&o.name).copied() {
-                Some(t) => Some(t),
-                // An option by its own name starts from its type.
-                None => mechanism
-                    .joints
-                    .iter()
-                    .flat_map(Joint::offered_options)
-                    .find(|x| x.name == o.name)
-                    .and_then(|x| all.by_name.get(x.joint_type.name()).copied()),
+            // An option by its own name starts from its type.
+            let of_option = || all.get(mechanism.option_named(&o.name)?.joint_type.name());
+            let Some(mut t) = all.get(&o.name).or_else(of_option).copied() else {
+                continue;
             };
-            let Some(mut t) = base else { continue };
             t.capacity_force = o.capacity_force.unwrap_or(t.capacity_force);
             t.capacity_moment = o.capacity_moment.or(t.capacity_moment);
             t.clearance = o.clearance.unwrap_or(t.clearance);

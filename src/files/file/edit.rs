@@ -5,6 +5,7 @@ mod differences;
 mod references;
 mod value;
 
+use crate::file::edit::references::id_of;
 pub use change::{Edit, EditError, Thing};
 pub use differences::find_differences;
 use serde_json::{Map, Value};
@@ -76,10 +77,6 @@ fn tables_of(document: &mut DocumentMut, what: Thing) -> Edited<&mut ArrayOfTabl
     let item = entry.or_insert_with(|| Item::ArrayOfTables(ArrayOfTables::new()));
     item.as_array_of_tables_mut()
         .ok_or(EditError::Inline { what })
-}
-
-fn id_of(table: &Table) -> Option<&str> {
-    table.get("id").and_then(Item::as_str)
 }
 
 fn table_of<'d>(document: &'d mut DocumentMut, what: Thing, id: &str) -> Edited<&'d mut Table> {

@@ -8,7 +8,6 @@ use crate::file::read::build_mechanism;
 use crate::file::read::workload::workload_tables;
 use crate::file::text::{read_file, text_of};
 use crate::format::{first_of, four_digits};
-use crate::geom::extent::box_diagonal;
 use crate::model::ranking::Term;
 
 /// Metres across, without a stated unit, beyond which the unit was probably forgotten.
@@ -98,26 +97,8 @@ fn check_drives(m: &Mechanism, out: &Findings) {
     }
 }
 
-fn joint_point(j: &Joint) -> [f64; 3] {
-    to_vector(&j.frame.point)
-}
-
-/// Returns the diagonal of the box around the joints, in the file's unit.
-///
-/// # Examples
-/// ```
-/// use ozols::file::lint::mechanism_size;
-/// // The joints are at (0, 0), (0, 30), (80, 90) and (120, 0), in mm.
-/// assert_eq!(mechanism_size(&ozols::built_in("four-bar")?), 150.0);
-/// # Ok::<(), ozols::Error>(())
-/// ```
-#[must_use]
-pub fn mechanism_size(m: &Mechanism) -> f64 {
-    box_diagonal(m.joints.iter().map(joint_point))
-}
-
 fn check_lengths(file: &MechanismFile, m: &Mechanism, out: &Findings) {
-    let across = mechanism_size(m);
+    let across = m.distance_across();
     let metres = across * m.length_unit.metres;
     if file.length_unit.is_none() && metres > FORGOTTEN_UNIT {
         out.key("name").warn(format!(

@@ -4,8 +4,8 @@
 //! publications are removed, because they are not about the new mechanism. Comments come before the first table and the first key of
 //! each kind.
 
-use crate::file::schema::json_schema;
-use serde_json::Value;
+use crate::file::text::{SCHEMA, of_key, schema_alternatives};
+use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use toml_edit::{DocumentMut, Item, TomlError};
@@ -50,7 +50,7 @@ pub fn without_claims(text: &str) -> Result<String, TomlError> {
 pub fn with_comments(text: &str, from: &str, name: &str) -> Result<String, TomlError> {
     let mut document: DocumentMut = text.parse()?;
     document.remove("claim");
-    let text = comment_lines(&document.to_string(), &json_schema());
+    let text = comment_lines(&document.to_string());
     let mut document: DocumentMut = text.parse()?;
     // Last, because a name may have several lines.
     if let Some(old) = document.get_mut("name").and_then(Item::as_value_mut) {
@@ -71,7 +71,7 @@ pub fn with_comments(text: &str, from: &str, name: &str) -> Result<String, TomlE
 }
 
 /// Returns the lines of a text, with a comment above the first table and the first key of each kind: before the comments that it has.
-fn comment_lines(text: &str, root: &Value) -> String {
+fn comment_lines(text: &str) -> String {
     let (mut out, mut own, mut table) = (String::new(), String::new(), String::new());
     let mut seen = BTreeSet::new();
     for line in text.lines() {
@@ -90,7 +90,7 @@ fn comment_lines(text: &str, root: &Value) -> String {
             (None, Some(key)) => format!("{table}.{key}"),
             (None, None) => String::new(),
         };
-        let found = schema_at(root, &path).filter(|(at, ..)| seen.insert(at.clone()));
+        let found = schema_at(&path).filter(|(at, ..)| seen.insert(at.clone()));
         let mut words = String::new();
         if let Some((_, property, inner)) = found {
             explain_key(&mut words, property, inner);
@@ -105,44 +105,41 @@ fn comment_lines(text: &str, root: &Value) -> String {
     out + &own
 }
 
-/// Returns the schema of a key and the definition that it refers to, with its path; keys that the user chooses, such as names of joint
+/// A schema with its keys.
+type Schema = Map<String, Value>;
+
+/// Returns the schema of a key and the table that it or its list has, with its path; keys that the user chooses, such as names of joint
 /// types, are `*` there.
-fn schema_at<'s>(root: &'s Value, path: &str) -> Option<(String, &'s Value, &'s Value)> {
-    let (mut at, mut property, mut inner) = (Vec::new(), root, root);
+fn schema_at(path: &str) -> Option<(String, &'static Value, Option<&'static Schema>)> {
+    let (mut at, mut property, mut table) = (Vec::new(), &*SCHEMA, table_schema(&SCHEMA));
     for key in path.split('.') {
-        let known = inner["properties"].get(key);
+        let known = table?.get("properties").and_then(|all| all.get(key));
         at.push(known.map_or("*", |_| key));
-        property = known.or_else(|| inner.get("additionalProperties"))?;
-        inner = resolve_schema(root, property).unwrap_or(property);
+        property = of_key(table?, key)?;
+        table = table_schema(property);
     }
-    Some((at.join("."), property, inner))
+    Some((at.join("."), property, table))
 }
 
-/// Returns the definition that a property, the items of its list, or one of its alternatives refers to.
-fn resolve_schema<'s>(root: &'s Value, property: &'s Value) -> Option<&'s Value> {
-    if let Some(reference) = property["$ref"].as_str() {
-        let found = root.pointer(reference.trim_start_matches('#'))?;
-        return match found.get("properties") {
-            Some(_) => Some(found),
-            // One of several forms: the table is the one that has keys.
-            None => resolve_schema(root, found).or(Some(found)),
-        };
-    }
-    let alternatives = property["anyOf"].as_array();
-    let within = alternatives.into_iter().flatten();
-    within
-        .chain(property.get("items"))
-        .find_map(|p| resolve_schema(root, p))
+/// Returns the schema of a table: the alternative of a property, or of the items of its list, that has keys.
+fn table_schema(property: &'static Value) -> Option<&'static Schema> {
+    let all = schema_alternatives(property);
+    let keyed = |s: &&&Schema| {
+        ["properties", "additionalProperties"]
+            .iter()
+            .any(|k| s.contains_key(*k))
+    };
+    let own = all.iter().find(keyed).copied();
+    own.or_else(|| all.iter().find_map(|s| table_schema(s.get("items")?)))
 }
 
 /// Explains a key. Conventions of a table, such as its units, are in its definition.
-fn explain_key(out: &mut String, property: &Value, inner: &Value) {
-    let about = |v: &Value| v["description"].as_str().map(str::to_owned);
-    write_comment(out, &about(property).unwrap_or_default());
-    let convention = about(inner).filter(|d| d.contains("in the file's unit"));
-    if inner.get("properties").is_some() {
-        write_comment(out, &convention.unwrap_or_default());
-    }
+fn explain_key(out: &mut String, property: &Value, table: Option<&Schema>) {
+    let told = property["description"].as_str();
+    write_comment(out, told.unwrap_or_default());
+    let convention = table.and_then(|t| t.get("description")?.as_str());
+    let convention = convention.filter(|d| d.contains("in the file's unit"));
+    write_comment(out, convention.unwrap_or_default());
 }
 
 /// Appends a comment, filled to the columns.

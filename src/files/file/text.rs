@@ -143,7 +143,7 @@ fn check_text(text: &str, at: &Place<'_>) {
     }
 }
 
-static SCHEMA: LazyLock<Value> = LazyLock::new(json_schema);
+pub(crate) static SCHEMA: LazyLock<Value> = LazyLock::new(json_schema);
 
 /// Returns a problem for each list of a document whose length its schema excludes, for each key that it does not have, and for each
 /// control character. The TOML deserializer ignores the extra values of a list, and the JSON one calls them "trailing characters". Both
@@ -205,7 +205,7 @@ fn check_value(schema: &Value, value: &Spanned<DeValue<'_>>, owner: &str, at: &P
 }
 
 /// Returns what a schema may be: what it refers to, or each that it offers, or itself.
-fn schema_alternatives(schema: &Value) -> Vec<&Map<String, Value>> {
+pub(crate) fn schema_alternatives(schema: &Value) -> Vec<&Map<String, Value>> {
     let Some(own) = schema.as_object() else {
         return Vec::new();
     };
@@ -220,7 +220,7 @@ fn schema_alternatives(schema: &Value) -> Vec<&Map<String, Value>> {
 }
 
 /// Returns the schema of an entry of a table.
-fn of_key<'s>(schema: &'s Map<String, Value>, key: &str) -> Option<&'s Value> {
+pub(crate) fn of_key<'s>(schema: &'s Map<String, Value>, key: &str) -> Option<&'s Value> {
     let known = schema.get("properties").and_then(|all| all.get(key));
     known.or_else(|| schema.get("additionalProperties"))
 }

@@ -25,13 +25,17 @@ use serde::Deserialize;
 /// ```
 #[must_use]
 pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
+    file_with(m, kept_tables(m))
+}
+
+/// Returns the file of a mechanism with the tables that are kept.
+fn file_with(m: &Mechanism, kept: MechanismFile) -> MechanismFile {
     let stated = number::file_tolerance(m);
     let joints = m.joints.iter();
     let joints = joints.map(|j| write_joint(m, j, stated.as_ref()));
     let contour = |list: &Vec<JointId>| ContourEntry {
         joints: list.iter().map(|&j| m.joints[j].id.clone()).collect(),
     };
-    let kept = kept_tables(m);
     let (mode, plane_normal) = match &m.mode {
         Mode::Spatial => (None, None),
         Mode::Planar { normal } => (Some("planar".to_owned()), Some(write_direction(normal))),
@@ -88,9 +92,9 @@ fn kept_tables(m: &Mechanism) -> MechanismFile {
     MechanismFile::deserialize(&*m.tables).unwrap_or_default()
 }
 
-/// Returns true if the loads, the ranking, the figures and the claims are those of the file, which are written. A redesign has no figures
-/// and claims.
-pub(crate) fn has_own_tables(m: &Mechanism) -> bool {
+/// Returns the file of a mechanism if its loads, ranking, figures and claims are those of the file that it was read from, which are
+/// written. A redesign has no figures and claims.
+pub(crate) fn own_file(m: &Mechanism) -> Option<MechanismFile> {
     let kept = kept_tables(m);
     let mut out = with_parameters(&kept);
     out.states.clone_from(&m.states);
@@ -99,9 +103,10 @@ pub(crate) fn has_own_tables(m: &Mechanism) -> bool {
     again.expected = read_expected(&kept, &again, &out);
     again.claims = read_claims(&kept, &out);
     let told = |m: &Parts| format!("{:?} {:?}", m.loads, m.ranking);
-    told(&again) == told(m)
+    let own = told(&again) == told(m)
         && (m.expected.is_empty() || m.expected == again.expected)
-        && (m.claims.is_empty() || m.claims == again.claims)
+        && (m.claims.is_empty() || m.claims == again.claims);
+    own.then(|| file_with(m, kept))
 }
 
 /// Returns the capacities of joint types; their costs are under `[search.costs]`.
@@ -255,17 +260,10 @@ fn write_option(m: &Mechanism, o: &JointOption, present: &Frame) -> OptionEntry 
 
 fn write_search(m: &Mechanism) -> SearchEntry {
     let spec = &m.search;
-    let costs = &spec.costs;
-    let others = [
-        ("change", costs.change_milli),
-        ("driven", costs.driven_milli),
-        ("link", costs.link_milli),
-        ("harmful", costs.harmful_milli),
-    ];
-    let others = others
-        .into_iter()
-        .filter_map(|(n, c)| Some((n.to_owned(), c?)));
-    let costs = costs.by_type_milli.iter().cloned().chain(others);
+    let mut costs = spec.costs.clone();
+    let others = costs.other_costs().into_iter();
+    let others = others.filter_map(|(n, c)| Some((n.to_owned(), (*c)?)));
+    let costs = spec.costs.by_type_milli.iter().cloned().chain(others);
     let id = |j: JointId| m.joints[j].id.clone();
     let groups = spec.turn.iter().map(|g| g.iter().map(|&j| id(j)).collect());
     SearchEntry {

@@ -162,8 +162,8 @@ pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
         let b = part(&format!("body_{body}"))?;
         let name = b.attribute("name").unwrap_or_else(|| b.text());
         let (link, frame) = robot.frame(name).ok_or_else(|| {
-            let known = list_known("links", &robot.links);
-            b.error_at(Some("name"), unknown_name(&e.label(), "link", name, &known))
+            let problem = unknown_name(&e.label(), ["link", "links"], name, &robot.links);
+            b.error_at(Some("name"), problem)
         })?;
         let p = part(point)?;
         let at = match p.read_numbers::<3>("value")? {

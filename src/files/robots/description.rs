@@ -13,7 +13,7 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::{RigidMotion, perpendicular};
 use crate::geom::vector::{Vector, X, Z, cross};
 use crate::model::joint_type::{Freedom, JointType};
-use crate::robots::warning::{Read, Report};
+use crate::robots::warning::{Found, Read, Report, unknown_name};
 use crate::robots::xml::element::Element;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -103,10 +103,10 @@ impl Part {
 
     /// Returns the direction of a freedom in the joint's own frame.
     pub(crate) fn direction(&self, freedom: Freedom) -> Vector {
-        match freedom {
-            Freedom::Rz | Freedom::Tz | Freedom::Screw => self.axis,
-            Freedom::Rx | Freedom::Tx => self.second,
-            Freedom::Ry | Freedom::Ty => cross(self.axis, self.second),
+        match freedom.axis() {
+            0 => self.second,
+            1 => cross(self.axis, self.second),
+            _ => self.axis,
         }
     }
 }
@@ -259,6 +259,25 @@ impl Robot {
         let at = self.joints.len();
         self.joints.push(part);
         Ok(&mut self.joints[at])
+    }
+
+    /// Returns the link that an element names.
+    ///
+    /// # Errors
+    /// Returns an error that lists the links if there is none of that name.
+    pub(crate) fn link_named(&self, element: &str, name: &str) -> Found<usize> {
+        let found = self.links.iter().position(|l| l == name);
+        found.ok_or_else(|| unknown_name(element, ["link", "links"], name, &self.links))
+    }
+
+    /// Returns the joint that an element names.
+    ///
+    /// # Errors
+    /// Returns an error that lists the joints if there is none of that name.
+    pub(crate) fn joint_named(&self, element: &str, name: &str) -> Found<usize> {
+        let ids = self.joints.iter().map(|j| &j.id);
+        let found = ids.clone().position(|id| id == name);
+        found.ok_or_else(|| unknown_name(element, ["joint", "joints"], name, ids))
     }
 
     /// Returns the link or frame of a name.

@@ -1,7 +1,7 @@
 //! The formats of files, with their readers and writers.
 
 use crate::file::schema::MechanismFile;
-use crate::file::write::{self, mechanism_file};
+use crate::file::write;
 use crate::robots::cad::archive::Archive;
 use crate::robots::cad::{asmt, fcstd};
 use crate::robots::prelude::*;
@@ -265,11 +265,7 @@ pub fn refuse_foreign(name: &str, bytes: &[u8]) -> Result<(), ImportError> {
 
 /// Returns the file of a mechanism, unless its tables are not those of the file that it was read from.
 fn own_file(m: &Mechanism) -> Result<MechanismFile, ExportError> {
-    if write::has_own_tables(m) {
-        Ok(mechanism_file(m))
-    } else {
-        Err(ExportError::Changed)
-    }
+    write::own_file(m).ok_or(ExportError::Changed)
 }
 
 /// Writes links as nodes (the frame with a double outline, outputs filled) and joints as edges with their class.

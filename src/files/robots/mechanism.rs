@@ -10,7 +10,7 @@ use crate::file::schema::MechanismFile;
 use crate::format::count_noun;
 use crate::robots::description::coupling;
 use crate::robots::description::kinematics::{Tree, link_places, spanning_tree};
-use crate::robots::mechanism::entries::{Content, link_of, merge_links, output_links};
+use crate::robots::mechanism::entries::{Content, merge_links, output_links};
 use crate::robots::mechanism::loop_closing::{
     CLOSED, ROUNDED, close_numerically, joint_values, loop_gaps, robot_size, worst_gap,
 };
@@ -28,10 +28,8 @@ pub(crate) fn pose_robot(robot: &mut Robot, options: &Options) -> Found<Tree> {
 
 fn apply_pose(robot: &mut Robot, options: &Options) -> Found<()> {
     for (id, values) in &options.pose {
-        let Some(joint) = robot.joints.iter_mut().find(|j| j.id == *id) else {
-            let known = list_known("joints", robot.joints.iter().map(|j| &j.id));
-            return Err(unknown_name("the pose", "joint", id, &known));
-        };
+        let at = robot.joint_named("the pose", id)?;
+        let joint = &mut robot.joints[at];
         if values.len() != joint.values.len() || !values.iter().all(|v| v.abs() <= 1e9) {
             let (element, found) = (format!("joint \"{id}\""), values.iter().join(","));
             let want = format!("give {} finite numbers", joint.values.len());
@@ -45,7 +43,7 @@ fn apply_pose(robot: &mut Robot, options: &Options) -> Found<()> {
 /// Returns the frame: the world if something is connected to it, otherwise the link that is no joint's child.
 fn root_link(robot: &mut Robot, options: &Options) -> Found<usize> {
     if let Some(name) = &options.frame {
-        return link_of(robot, name, "frame");
+        return robot.link_named("the option `frame`", name);
     }
     let in_tree = || robot.joints.iter().filter(|j| !j.closes);
     let child: BTreeSet<usize> = in_tree().map(|j| j.links[1]).collect();

@@ -7,7 +7,7 @@ pub(super) mod write;
 
 use crate::robots::additions::leave_out;
 use crate::robots::include::expand_files;
-use crate::robots::mjcf::context::{Context, Defaults, Lookup, read_compiler};
+use crate::robots::mjcf::context::{Context, Defaults, read_compiler};
 use crate::robots::prelude::*;
 
 /// Sections without constraints; equalities look up in them what they use.
@@ -246,12 +246,12 @@ fn read_joint<'a>(
     let word = if tag.is_empty() {
         "free"
     } else {
-        look.attribute("type").map_or("hinge", |(_, t)| t)
+        look.of("type").attribute("type").unwrap_or("hinge")
     };
     let joint_type = joint_of_word(word, TYPES);
     let joint_type = joint_type.ok_or_else(|| e.unknown_word("type", word, TYPES))?;
     let id = joint_id(e, body, word, robot)?;
-    let pos = look.vector("pos", [0.0; 3])?;
+    let pos = look.of("pos").read_vector("pos", [0.0; 3])?;
     let at = if word == "free" {
         RigidMotion::IDENTITY
     } else {
@@ -259,27 +259,28 @@ fn read_joint<'a>(
     };
     let mut part = Part::new(&id, links, [place.then(&at), at], joint_type).said_by(e);
     if matches!(word, "hinge" | "slide") {
-        let axis = read_axis(e, &look)?;
+        let axis = read_axis(e, look.of("axis"))?;
         part.set_axis(inner.map_direction(axis));
         let unit = match word {
             "hinge" => context.compiler.angle,
             _ => 1.0,
         };
-        part.zero = look.numbers::<1>("ref")?.map_or(0.0, |[x]| x * unit);
-        if let Some([low, high]) = look.numbers::<2>("range")? {
+        let zero = look.of("ref").read_numbers::<1>("ref")?;
+        part.zero = zero.map_or(0.0, |[x]| x * unit);
+        if let Some([low, high]) = look.of("range").read_numbers::<2>("range")? {
             part.limits = (low < high).then_some((low * unit - part.zero, high * unit - part.zero));
         }
     }
     Ok(part)
 }
 
-/// Returns the direction of a hinge or a slide.
-fn read_axis(e: Element<'_>, look: &Lookup<'_>) -> Read<Vector> {
-    let axis = look.vector("axis", Z)?;
+/// Returns the direction of a hinge or a slide, which an element gives for it.
+fn read_axis(e: Element<'_>, given: Element<'_>) -> Read<Vector> {
+    let axis = given.read_vector("axis", Z)?;
     if length(axis) >= 1e-9 {
         return Ok(axis);
     }
-    let found = look.attribute("axis").map_or("", |(_, v)| v);
+    let found = given.attribute("axis").unwrap_or("");
     let want = "give a direction such as 0 0 1";
     Err(e.error_at(Some("axis"), bad_value(&e.label(), "axis", found, want)))
 }

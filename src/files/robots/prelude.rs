@@ -11,8 +11,8 @@ pub(crate) use crate::robots::description::{
     End, Part, Ratio, Robot, free_joint, joint_of_word, same_link,
 };
 pub(crate) use crate::robots::warning::{
-    ExportError, Found, Options, Read, Reader, bad_value, list_known, missing_problem,
-    syntax_problem, too_large, too_many, unknown_name, unknown_word, unsupported_problem,
+    ExportError, Found, Options, Read, Reader, bad_value, missing_problem, syntax_problem,
+    too_large, too_many, unknown_name, unknown_word, unsupported_problem,
 };
 pub(crate) use crate::robots::xml::element::Element;
 pub(crate) use crate::robots::xml::{Document, Input, decode_utf8};

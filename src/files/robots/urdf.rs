@@ -178,10 +178,8 @@ fn end_link(e: Element<'_>, tag: &str, robot: &Robot) -> Read<usize> {
 /// Returns the link that `c`, a child of `e`, names.
 fn named_link(e: Element<'_>, c: Element<'_>, robot: &Robot) -> Read<usize> {
     let name = c.required_attribute("link")?;
-    robot.links.iter().position(|l| l == name).ok_or_else(|| {
-        let known = list_known("links", &robot.links);
-        c.error_at(Some("link"), unknown_name(&e.label(), "link", name, &known))
-    })
+    let found = robot.link_named(&e.label(), name);
+    found.map_err(|p| c.error_at(Some("link"), p))
 }
 
 fn read_axis(e: Element<'_>) -> Read<Vector> {

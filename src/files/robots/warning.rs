@@ -178,26 +178,27 @@ pub(crate) fn unknown_word(element: &str, what: &str, word: &str, known: &str) -
     ))
 }
 
-/// Returns the problem that an element names something unknown. `known` lists the known names.
-pub(crate) fn unknown_name(element: &str, what: &str, name: &str, known: &str) -> ProblemKind {
+/// Returns the problem that an element names something unknown: one of `many`, at most 20 of which are listed.
+pub(crate) fn unknown_name(
+    element: &str,
+    [one, many]: [&str; 2],
+    name: &str,
+    known: impl IntoIterator<Item: AsRef<str>>,
+) -> ProblemKind {
+    let all: Vec<_> = known.into_iter().collect();
+    let shown = all.iter().take(20).map(AsRef::as_ref).join(", ");
+    let list = match all.len() {
+        0 => format!("there are no {many}"),
+        1..=20 => format!("{many}: {shown}"),
+        _ => format!("{many}: {shown}, ..."),
+    };
     syntax_problem(format!(
-        "{element} names the {what} \"{name}\", which does not exist; {known}"
+        "{element} names the {one} \"{name}\", which does not exist; {list}"
     ))
 }
 
 pub(crate) fn unsupported_problem(element: &str, why: &str, remedy: &str) -> ProblemKind {
     syntax_problem(format!("{element} cannot be mapped: {why}; {remedy}"))
-}
-
-/// Returns a list of names for a message, with at most 20 of them.
-pub(crate) fn list_known(what: &str, names: impl IntoIterator<Item: AsRef<str>>) -> String {
-    let all: Vec<_> = names.into_iter().collect();
-    if all.is_empty() {
-        return format!("there are no {what}");
-    }
-    let shown = all.iter().take(20).map(AsRef::as_ref).join(", ");
-    let more = if all.len() > 20 { ", ..." } else { "" };
-    format!("{what}: {shown}{more}")
 }
 
 /// Why a mechanism cannot be written in a format.

@@ -2,8 +2,7 @@
 //! jaws.
 
 use crate::closure::drive::driven_freedoms;
-use crate::geom::exact::ExactError;
-use crate::grip::clamping::{DiameterRow, HoldVerdict};
+use crate::grip::clamping::DiameterRow;
 use crate::grip::drive_effort;
 use crate::grip::jaw_loads::{Fit, Gripping, JawError};
 use crate::model::grip::Transmission;
@@ -28,9 +27,6 @@ pub enum ClampedError {
     /// The spatial statics have no solution.
     #[error(transparent)]
     Spatial(#[from] Unsolved),
-    /// The geometry has no numerical value.
-    #[error(transparent)]
-    Exact(#[from] ExactError),
 }
 
 /// A mechanism around a part.
@@ -50,11 +46,10 @@ pub struct Clamped {
 /// Returns the effort that the grip requires of one drive of both levers in a pose, if the mechanism has one.
 fn required_effort(g: &Gripping, row: &DiameterRow, pose: &Pose) -> Option<(f64, bool)> {
     let spec = g.mechanism.loads.grip.as_ref()?;
-    let (Transmission::Joints(joints), HoldVerdict::Held(h)) =
-        (spec.transmission, &row.hardest.as_ref()?.verdict)
-    else {
+    let Transmission::Joints(joints) = spec.transmission else {
         return None;
     };
+    let h = row.hardest.as_ref()?.held_forces()?;
     let t = drive_rates(&g.mechanism, pose, &joints).ok()?;
     Some((drive_effort(spec.load.as_ref()?.levers, h, &t)?, t.slides))
 }

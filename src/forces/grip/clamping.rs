@@ -4,10 +4,10 @@ use crate::format::decimals;
 use crate::geom::vector::{length, unit};
 use crate::grip::contact::{Gripper, TouchingPose, Unholdable};
 use crate::grip::holding::{
-    Holding, HoldingError, HoldingOutcome, PartWrench, Slip, Spatial, find_holding,
+    Holding, HoldingError, HoldingOutcome, PartWrench, Spatial, find_holding,
 };
 use crate::grip::lever_arm::{Arms, Lever, LeverError};
-use crate::model::grip::{GripLoad, GripSpec, LeverDrive, Pivots, Toward};
+use crate::model::grip::{GripLoad, GripSpec, Pivots, Toward};
 use itertools::Itertools;
 
 /// Number of directions from which loads of any direction are followed uphill, before the worst is refined: to the
@@ -15,17 +15,6 @@ use itertools::Itertools;
 pub const DIRECTIONS: usize = 26;
 /// Maximum number of steps uphill from each direction; a few are enough.
 const CLIMB: usize = 20;
-
-/// Result of the statics for the worst case of a diameter.
-#[derive(Debug, Clone, PartialEq)]
-pub enum HoldVerdict {
-    /// Held with these forces.
-    Held(Holding),
-    /// No forces hold it.
-    Slips(Slip),
-    /// The solver gave no answer.
-    Undecided(HoldingError),
-}
 
 /// The worst case of a diameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,18 +25,20 @@ pub struct Hardest {
     pub pull: Spatial,
     /// The load with its safety factor.
     pub load: PartWrench,
-    /// The result.
-    pub verdict: HoldVerdict,
+    /// The result of the statics.
+    pub verdict: Result<HoldingOutcome, HoldingError>,
 }
 
 impl Hardest {
     /// Returns the forces that hold the part, if it is held.
     #[must_use]
     pub fn held_forces(&self) -> Option<&Holding> {
-        match &self.verdict {
-            HoldVerdict::Held(held) => Some(held),
-            HoldVerdict::Slips(_) | HoldVerdict::Undecided(_) => None,
-        }
+        self.verdict.as_ref().ok()?.held_forces()
+    }
+
+    /// Returns its difficulty; a part that cannot be held is the most difficult.
+    fn hardness(&self) -> f64 {
+        self.held_forces().map_or(f64::INFINITY, |h| h.drive)
     }
 }
 
@@ -187,34 +178,12 @@ fn cube_directions() -> impl Iterator<Item = Spatial> {
         .map(unit)
 }
 
-/// Returns the difficulty of a verdict; a part that cannot be held is the most difficult.
-fn verdict_hardness(v: &HoldVerdict) -> f64 {
-    match v {
-        HoldVerdict::Held(h) => h.drive,
-        HoldVerdict::Slips(_) | HoldVerdict::Undecided(_) => f64::INFINITY,
-    }
-}
-
-/// Returns the verdict on a load in a pose.
-pub(super) fn find_verdict(
-    pose: &TouchingPose,
-    load: &PartWrench,
-    friction: f64,
-    levers: LeverDrive,
-) -> HoldVerdict {
-    match find_holding(pose, load, friction, levers) {
-        Ok(HoldingOutcome::Held(h)) => HoldVerdict::Held(h),
-        Ok(HoldingOutcome::Slips(s)) => HoldVerdict::Slips(s),
-        Err(e) => HoldVerdict::Undecided(e),
-    }
-}
-
 fn hardest_of(pose: &TouchingPose, load: &GripLoad, mass: f64, case: &GravityCase) -> Hardest {
     let at = |u: Spatial| {
         let pull = [0, 1, 2].map(|i| case.base[i] + case.any * u[i]);
         let load_there =
             PartWrench::of_mass(mass, pull, [0.0; 3], load.centre_of_mass).scaled_by(load.safety);
-        let verdict = find_verdict(pose, &load_there, load.friction, load.levers);
+        let verdict = find_holding(pose, &load_there, load.friction, load.levers);
         (
             u,
             Hardest {
@@ -234,23 +203,19 @@ fn hardest_of(pose: &TouchingPose, load: &GripLoad, mass: f64, case: &GravityCas
     for u in cube_directions() {
         let found = climb_from(at, at(u));
         // Mirror images are equally difficult. Rounding must not prefer one of them.
-        if verdict_hardness(&found.1.verdict) > verdict_hardness(&worst.1.verdict) * (1.0 + 1e-6) {
+        if found.1.hardness() > worst.1.hardness() * (1.0 + 1e-6) {
             worst = found;
         }
     }
     let mut step = 0.4;
-    while step > 2e-3 && verdict_hardness(&worst.1.verdict).is_finite() {
+    while step > 2e-3 && worst.1.hardness().is_finite() {
         let from = worst.0;
         let aside = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
             .into_iter()
             .cartesian_product([step, -step]);
         let tries = aside.map(|(a, s)| at(unit([0, 1, 2].map(|i| from[i] + s * a[i]))));
-        let best = tries.max_by(|a, b| {
-            verdict_hardness(&a.1.verdict).total_cmp(&verdict_hardness(&b.1.verdict))
-        });
-        match best.filter(|b| {
-            verdict_hardness(&b.1.verdict) > verdict_hardness(&worst.1.verdict) * (1.0 + 1e-9)
-        }) {
+        let best = tries.max_by(|a, b| a.1.hardness().total_cmp(&b.1.hardness()));
+        match best.filter(|b| b.1.hardness() > worst.1.hardness() * (1.0 + 1e-9)) {
             Some(better) => worst = better,
             None => step /= 2.0,
         }
@@ -267,18 +232,18 @@ fn climb_from(
     /// Step of a finite difference that approximates a slope.
     const STEP: f64 = 1e-3;
     for _ in 0..CLIMB {
-        let (u, now) = (here.0, verdict_hardness(&here.1.verdict));
+        let (u, now) = (here.0, here.1.hardness());
         let slope = [0, 1, 2].map(|i| {
             let mut aside = u;
             aside[i] += STEP;
-            verdict_hardness(&at(aside).1.verdict) - now
+            at(aside).1.hardness() - now
         });
         let steep = length(slope);
         if !(steep.is_finite() && steep > 0.0) {
             break;
         }
         let next = at(slope.map(|x| x / steep));
-        if verdict_hardness(&next.1.verdict) <= now * (1.0 + 1e-9) {
+        if next.1.hardness() <= now * (1.0 + 1e-9) {
             break;
         }
         here = next;
@@ -334,13 +299,9 @@ pub fn study_diameters(spec: &GripSpec) -> Result<Study, LeverError> {
                     .iter()
                     .map(|c| hardest_of(pose, load, mass, c))
                     .collect_vec();
-                found.into_iter().reduce(|a, b| {
-                    if verdict_hardness(&b.verdict) > verdict_hardness(&a.verdict) {
-                        b
-                    } else {
-                        a
-                    }
-                })
+                found
+                    .into_iter()
+                    .reduce(|a, b| if b.hardness() > a.hardness() { b } else { a })
             }
             _ => None,
         };

@@ -163,6 +163,17 @@ pub enum HoldingOutcome {
     Slips(Slip),
 }
 
+impl HoldingOutcome {
+    /// Returns the forces that hold it, if it can be held.
+    #[must_use]
+    pub fn held_forces(&self) -> Option<&Holding> {
+        match self {
+            HoldingOutcome::Held(held) => Some(held),
+            HoldingOutcome::Slips(_) => None,
+        }
+    }
+}
+
 /// Reason why the statics have no result.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]

@@ -22,16 +22,18 @@
 use crate::closure::drive::driven_freedoms;
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
-use crate::geom::vector::{self, across, add, add_scaled, cross, dot, length, sub};
-use crate::grip::clamping::{DiameterRow, HoldVerdict, Study, study_diameters};
+use crate::geom::rigid::RigidMotion;
+use crate::geom::vector::{self, Z, across, add_scaled, cross, dot, length, sub};
+use crate::grip::clamping::{DiameterRow, Study, study_diameters};
 use crate::grip::contact::{self, Contact, Unholdable};
 use crate::grip::lever_arm::LeverError;
 use crate::model::grip::{GripSpec, Transmission};
 use crate::model::joint_type::Freedom;
 use crate::model::loads::{ExternalForce, Loads};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
-use crate::motion::follow::{Follower, column_slides};
+use crate::motion::follow::{Follower, column_unit};
 use crate::motion::pose::Pose;
+use crate::statics::mean_point;
 use thiserror::Error;
 
 /// Maximum deviation of points in the file from the grip's figures, as a fraction of the lever's length.
@@ -101,53 +103,10 @@ pub struct Gripping {
     /// The links they touch: upper and lower lever.
     pub levers: [LinkId; 2],
     joints: [JointId; 2],
-    axes: Axes,
+    /// The gripper's axes in those of the file, with the origin in metres.
+    axes: RigidMotion,
     nominal: contact::TouchingPose,
     start: Pose,
-}
-
-/// The gripper's axes in those of the file: origin in metres, unit vectors x, y, z.
-#[derive(Debug, Clone, Copy)]
-struct Axes {
-    origin: [f64; 3],
-    unit: [[f64; 3]; 3],
-}
-
-impl Axes {
-    fn world_direction(&self, v: [f64; 3]) -> [f64; 3] {
-        [0, 1, 2].map(|i| (0..3).map(|k| v[k] * self.unit[k][i]).sum())
-    }
-
-    fn world_point(&self, p: [f64; 3]) -> [f64; 3] {
-        add(self.origin, self.world_direction(p))
-    }
-
-    fn plane_point(&self, p: [f64; 3]) -> [f64; 2] {
-        let d = sub(p, self.origin);
-        [dot(d, self.unit[0]), dot(d, self.unit[1])]
-    }
-
-    /// Returns an error if a joint is farther than `most` from its expected position. `[m]`
-    fn check_position(
-        &self,
-        m: &Mechanism,
-        joint: JointId,
-        wanted: [f64; 2],
-        most: f64,
-    ) -> Result<(), JawError> {
-        let is = self.plane_point(joint_metres(m, joint));
-        let off = (is[0] - wanted[0]).hypot(is[1] - wanted[1]);
-        if off.is_nan() || off > most {
-            let told = |p: [f64; 2]| p.map(|x| x / m.length_unit.metres);
-            return Err(JawError::Misplaced {
-                joint: m.joints[joint].id.clone(),
-                is: told(is),
-                wanted: told(wanted),
-                unit: m.length_unit.symbol,
-            });
-        }
-        Ok(())
-    }
 }
 
 /// The mechanism around a part of one diameter.
@@ -191,18 +150,16 @@ fn joint_metres(m: &Mechanism, joint: JointId) -> [f64; 3] {
     [0, 1, 2].map(|i| p[i].to_f64() * m.length_unit.metres)
 }
 
-fn mean_point(points: &[[f64; 3]]) -> [f64; 3] {
-    #[allow(clippy::cast_precision_loss, reason = "two or four points")]
-    let n = points.len() as f64;
-    [0, 1, 2].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / n)
-}
-
 fn unit_vector(a: [f64; 3]) -> Option<[f64; 3]> {
     (length(a) > 0.0).then(|| vector::unit(a))
 }
 
 /// Returns the gripper's axes, from the contacts and the hinges of the levers along `hinge`.
-fn grip_axes(contacts: [[f64; 3]; 4], pivots: [[f64; 3]; 2], hinge: [f64; 3]) -> Option<Axes> {
+fn grip_axes(
+    contacts: [[f64; 3]; 4],
+    pivots: [[f64; 3]; 2],
+    hinge: [f64; 3],
+) -> Option<RigidMotion> {
     let ahead = sub(mean_point(&contacts), mean_point(&pivots));
     let x = unit_vector(across(ahead, hinge))?;
     let up = across(
@@ -210,11 +167,35 @@ fn grip_axes(contacts: [[f64; 3]; 4], pivots: [[f64; 3]; 2], hinge: [f64; 3]) ->
         hinge,
     );
     let y = unit_vector(across(up, x))?;
-    Some(Axes {
+    let axes = [x, y, cross(x, y)];
+    Some(RigidMotion {
+        rotation: [0, 1, 2].map(|i| axes.map(|a| a[i])),
         // Midway between the pivots, in the plane of the contacts.
-        origin: add_scaled(mean_point(&pivots), dot(ahead, hinge), hinge),
-        unit: [x, y, cross(x, y)],
+        translation: add_scaled(mean_point(&pivots), dot(ahead, hinge), hinge),
     })
+}
+
+/// Returns an error if a joint is farther than `most` from its expected position in the gripper's plane. `[m]`
+fn check_position(
+    axes: &RigidMotion,
+    m: &Mechanism,
+    joint: JointId,
+    wanted: [f64; 2],
+    most: f64,
+) -> Result<(), JawError> {
+    let from_origin = sub(joint_metres(m, joint), axes.translation);
+    let [x, y, _] = axes.inverse().map_direction(from_origin);
+    let off = (x - wanted[0]).hypot(y - wanted[1]);
+    if off.is_nan() || off > most {
+        let told = |p: [f64; 2]| p.map(|x| x / m.length_unit.metres);
+        return Err(JawError::Misplaced {
+            joint: m.joints[joint].id.clone(),
+            is: told([x, y]),
+            wanted: told(wanted),
+            unit: m.length_unit.symbol,
+        });
+    }
+    Ok(())
 }
 
 impl Gripping {
@@ -278,7 +259,7 @@ impl Gripping {
         let placed = contacts.into_iter().zip(nominal.contacts.map(|c| c.point));
         let placed = placed.chain(joints.into_iter().zip(nominal.pivots));
         for (joint, wanted) in placed {
-            axes.check_position(m, joint, wanted, PLACED * spec.lever_length)?;
+            check_position(&axes, m, joint, wanted, PLACED * spec.lever_length)?;
         }
         Ok(Some(Gripping {
             levers: [lever(0), lever(2)],
@@ -308,7 +289,7 @@ impl Gripping {
             // The lower lever is the mirror image of the upper one.
             let turn = (there - self.nominal.turn) * if k == 0 { 1.0 } else { -1.0 };
             let t = self.start.columns[column].twist;
-            let about = dot([t[0], t[1], t[2]], self.axes.unit[2]);
+            let about = dot([t[0], t[1], t[2]], self.axes.map_direction(Z));
             if about.abs() < 1.0 - 1e-9 {
                 return Err(JawError::NotAHinge(name()));
             }
@@ -330,14 +311,7 @@ impl Gripping {
         let first = driven_freedoms(m, self.state).first().copied();
         let mut columns = pose.columns.iter();
         let drive = columns.position(|c| Some((c.joint, c.freedom)) == first);
-        let position = drive.map(|c| {
-            let scale = if column_slides(&pose, c) {
-                pose.length
-            } else {
-                1.0
-            };
-            pose.columns[c].moved * scale
-        });
+        let position = drive.map(|c| pose.columns[c].moved * column_unit(&pose, c));
         Ok(Fit {
             drive: position.unwrap_or(0.0),
             pose,
@@ -349,9 +323,7 @@ impl Gripping {
     #[must_use]
     pub fn jaw_loads(&self, row: &DiameterRow) -> Option<Loads> {
         let (hardest, fitted) = (row.hardest.as_ref()?, row.pose.as_ref()?);
-        let HoldVerdict::Held(holding) = &hardest.verdict else {
-            return None;
-        };
+        let holding = hardest.held_forces()?;
         let exact = |v: [f64; 3]| {
             let [x, y, z] = v.map(|x| Expr::from_f64(x).ok());
             Some([x?, y?, z?])
@@ -362,18 +334,18 @@ impl Gripping {
             ..self.mechanism.loads.in_state(self.state)
         };
         if out.gravity.is_some() {
-            out.gravity = Some(exact(self.axes.world_direction(hardest.pull))?);
+            out.gravity = Some(exact(self.axes.map_direction(hardest.pull))?);
         }
         let along = self.study.lever.face_distance(row.diameter);
         let each = self.nominal.contacts.iter().zip(&fitted.contacts);
         for ((home, now), f) in each.zip(&holding.forces) {
-            let point = self.axes.world_point(on_face(&self.nominal, home, along));
+            let point = self.axes.map_point(on_face(&self.nominal, home, along));
             let force = [0, 1].map(|i| f.normal * now.normal[i] + f.along * now.tangent[i]);
             out.forces.push(ExternalForce {
                 link: self.levers[home.lever],
                 point: exact(point.map(|x| x / self.mechanism.length_unit.metres))?,
                 // The part's force on the jaw is the opposite of the jaw's on the part.
-                force: exact(self.axes.world_direction([-force[0], -force[1], -f.axial]))?,
+                force: exact(self.axes.map_direction([-force[0], -force[1], -f.axial]))?,
                 range: None,
                 states: None,
             });

@@ -3,8 +3,8 @@
 //! [`study_diameters`](crate::grip::clamping::study_diameters) only considers the worst case. A gripper that always closes with that force
 //! marks soft parts. One whose force follows the motion closes harder only when necessary.
 
-use crate::grip::clamping::{DiameterRow, HoldVerdict, find_verdict};
-use crate::grip::holding::PartWrench;
+use crate::grip::clamping::DiameterRow;
+use crate::grip::holding::{Holding, HoldingError, HoldingOutcome, PartWrench, find_holding};
 use crate::grip::{Grip, drive_effort};
 use crate::model::grip::{GripSpec, MotionStep, Toward};
 use thiserror::Error;
@@ -35,20 +35,17 @@ pub struct StepTaken {
     pub diameter: f64,
     /// Gravity less acceleration. `[m/s²]`
     pub pull: [f64; 3],
-    /// The verdict, or `None` if this part cannot be held by any forces.
-    pub verdict: Option<HoldVerdict>,
+    /// The result of the statics, or `None` if this part cannot be held by any forces.
+    pub verdict: Option<Result<HoldingOutcome, HoldingError>>,
     /// Effort of one drive of both levers, `[N]` or `[N·m]`, and whether it slides.
     pub effort: Option<(f64, bool)>,
 }
 
 impl StepTaken {
-    /// Returns the smallest drive moment per lever, if the part is held. `[N·m]`
+    /// Returns the forces that hold the part, if it is held.
     #[must_use]
-    pub fn drive_moment(&self) -> Option<f64> {
-        match &self.verdict {
-            Some(HoldVerdict::Held(h)) => Some(h.drive),
-            Some(HoldVerdict::Slips(_) | HoldVerdict::Undecided(_)) | None => None,
-        }
+    pub fn held_forces(&self) -> Option<&Holding> {
+        self.verdict.as_ref()?.as_ref().ok()?.held_forces()
     }
 }
 
@@ -86,9 +83,9 @@ pub fn clamp_along(
         let pose = row.pose.as_ref().filter(|_| row.obstacles.is_empty());
         let wrench = PartWrench::of_mass(row.mass, pull, [0.0; 3], load.centre_of_mass)
             .scaled_by(load.safety);
-        let verdict = pose.map(|p| find_verdict(p, &wrench, load.friction, load.levers));
+        let verdict = pose.map(|p| find_holding(p, &wrench, load.friction, load.levers));
         let effort = match (&verdict, grip.transmission.get(at)) {
-            (Some(HoldVerdict::Held(h)), Some(rates)) => {
+            (Some(Ok(HoldingOutcome::Held(h))), Some(rates)) => {
                 drive_effort(load.levers, h, rates).map(|e| (e, rates.slides))
             }
             _ => None,

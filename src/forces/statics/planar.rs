@@ -268,8 +268,6 @@ impl PlanarMechanism {
 
     /// Returns the freedoms of a joint in the plane, with these axes of its frame.
     fn plane_freedoms(&self, freedoms: &[Freedom], axes: [[f64; 3]; 3]) -> FreedomsInPlane {
-        let normal = |k: usize| is_parallel(axes[k], self.axes[2]);
-        let across = |k: usize| dot(axes[k], self.axes[2]).abs() <= PARALLEL;
         let ball = [Freedom::Rx, Freedom::Ry, Freedom::Rz]
             .iter()
             .all(|f| freedoms.contains(f));
@@ -279,14 +277,13 @@ impl PlanarMechanism {
             outside: ball,
         };
         for f in freedoms {
+            let axis = axes[f.axis()];
             match f {
-                Freedom::Rx | Freedom::Ry | Freedom::Rz if ball => {}
-                Freedom::Rx if normal(0) => seen.turns += 1,
-                Freedom::Ry if normal(1) => seen.turns += 1,
-                Freedom::Rz if normal(2) => seen.turns += 1,
-                Freedom::Tx if across(0) => seen.slides.push(self.plane_components(axes[0])),
-                Freedom::Ty if across(1) => seen.slides.push(self.plane_components(axes[1])),
-                Freedom::Tz if across(2) => seen.slides.push(self.plane_components(axes[2])),
+                f if f.is_turn() && ball => {}
+                f if f.is_turn() && is_parallel(axis, self.axes[2]) => seen.turns += 1,
+                f if f.is_slide() && dot(axis, self.axes[2]).abs() <= PARALLEL => {
+                    seen.slides.push(self.plane_components(axis));
+                }
                 _ => seen.outside = true,
             }
         }
@@ -398,17 +395,13 @@ fn spatial_normal(m: &Mechanism, state: StateId) -> Result<[f64; 3], PlanarError
         let axes = FrameValues::new(&Reals, &joint.frame)?.axes.map(unit);
         for f in joint.joint_type.freedoms() {
             match f {
-                Freedom::Rx => return Ok(axes[0]),
-                Freedom::Ry => return Ok(axes[1]),
-                Freedom::Rz => return Ok(axes[2]),
-                Freedom::Tx => slides.push(axes[0]),
-                Freedom::Ty => slides.push(axes[1]),
-                Freedom::Tz => slides.push(axes[2]),
                 Freedom::Screw => {
                     return Err(PlanarError::NotPlanar {
                         joint: joint.id.clone(),
                     });
                 }
+                f if f.is_turn() => return Ok(axes[f.axis()]),
+                f => slides.push(axes[f.axis()]),
             }
         }
     }

@@ -7,8 +7,8 @@ pub use crate::geom::vector::{
     add_scaled as plus, cross_plane as cross, dot, plane_norm as length, quarter_turn, sub as minus,
 };
 use crate::motion::pose as motion;
-use crate::statics::condition_number;
 use crate::statics::planar::{BodyId, Pair, PairId, PairKind, PlanarMechanism};
+use crate::statics::{condition_number, mean_point};
 use ozols_dense::Matrix;
 
 /// (x `[m]`, y `[m]`, θ `[rad]`) of a body.
@@ -47,21 +47,16 @@ impl Linkage {
     /// Creates the linkage of a mechanism.
     #[must_use]
     pub fn new(mechanism: PlanarMechanism) -> Linkage {
-        let mean = |points: &[[f64; 2]]| {
-            #[allow(clippy::cast_precision_loss, reason = "at most a few thousand")]
-            let n = points.len().max(1) as f64;
-            let sum = points.iter().fold([0.0; 2], |s, p| plus(s, 1.0, *p));
-            sum.map(|c| c / n)
-        };
         let of = |b: BodyId| -> Vec<[f64; 2]> {
             let pairs = mechanism.pairs.iter().filter(|p| p.bodies.contains(&b));
             pairs.map(|p| p.point).collect()
         };
-        let mut origins: Vec<[f64; 2]> =
-            (0..mechanism.bodies.len()).map(|b| mean(&of(b))).collect();
+        let mut origins: Vec<[f64; 2]> = (0..mechanism.bodies.len())
+            .map(|b| mean_point(&of(b)))
+            .collect();
         origins[mechanism.frame] = [0.0; 2];
         let all: Vec<[f64; 2]> = mechanism.pairs.iter().map(|p| p.point).collect();
-        let middle = mean(&all);
+        let middle = mean_point(&all);
         let far = all
             .iter()
             .map(|p| length(minus(*p, middle)))

@@ -58,7 +58,7 @@ pub(crate) fn rate_row<S: Scalars>(
     let present = &mechanism.joints[joint].frame;
     let size = Expr::from(1).div(&squared_axis_length(present, freedom));
     let size = s.eval(&size.unwrap_or_else(|| Expr::from(1)))?;
-    let axis = axis_of(FrameValues::new(s, present)?.axes, freedom);
+    let axis = FrameValues::new(s, present)?.axis(freedom);
     let point = s.eval3(&at.point)?;
     let product3 = |a: &[S::Number; 3], b: &[S::Number; 3]| s.dot(a.clone(), b.clone());
     // (ω × p)·a = ω·(p × a)
@@ -117,7 +117,7 @@ pub(crate) fn driven_in(
     const SQUARE: f64 = 1e-9;
     let axis = |frame: &Frame, freedom: Freedom| {
         let values = FrameValues::new(&Reals, frame).ok()?;
-        let axis = axis_of(values.axes, freedom);
+        let axis = values.axis(freedom);
         let size = length(axis);
         Some(axis.map(|x| x / size))
     };
@@ -138,13 +138,4 @@ pub(crate) fn driven_in(
         }
     }
     found
-}
-
-/// Returns the axis about which a freedom turns or along which it slides, from a frame's axes x, y, z.
-fn axis_of<N>([x, y, z]: [[N; 3]; 3], freedom: Freedom) -> [N; 3] {
-    match freedom {
-        Freedom::Rx | Freedom::Tx => x,
-        Freedom::Ry | Freedom::Ty => y,
-        Freedom::Rz | Freedom::Tz | Freedom::Screw => z,
-    }
 }

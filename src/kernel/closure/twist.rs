@@ -221,26 +221,22 @@ impl<N: Clone + PartialEq + Default> FrameValues<N> {
 
     /// Returns the twist of one freedom.
     pub fn twist_of<S: Scalars<Number = N>>(&self, s: &S, freedom: Freedom) -> Twist<N> {
-        let zero = || s.sub(self.point[0].clone(), self.point[0].clone());
-        let rotation = |u: &[N; 3]| {
-            let v = s.cross(self.point.clone(), u.clone());
-            join_twist(u.clone(), v)
-        };
-        let translation = |u: &[N; 3]| join_twist([zero(), zero(), zero()], u.clone());
-        let [x, y, z] = &self.axes;
-        match freedom {
-            Freedom::Rx => rotation(x),
-            Freedom::Ry => rotation(y),
-            Freedom::Rz => rotation(z),
-            Freedom::Tx => translation(x),
-            Freedom::Ty => translation(y),
-            Freedom::Tz => translation(z),
-            Freedom::Screw => {
-                let v = s.cross(self.point.clone(), z.clone());
-                let t = s.scaled_sum(self.pitch.clone(), z.clone(), v);
-                join_twist(z.clone(), t)
-            }
+        let axis = self.axis(freedom);
+        if freedom.is_slide() {
+            let zero = || s.sub(self.point[0].clone(), self.point[0].clone());
+            return join_twist([zero(), zero(), zero()], axis);
         }
+        let turned = s.cross(self.point.clone(), axis.clone());
+        let moved = match freedom {
+            Freedom::Screw => s.scaled_sum(self.pitch.clone(), axis.clone(), turned),
+            _ => turned,
+        };
+        join_twist(axis, moved)
+    }
+
+    /// Returns the axis that a freedom turns about or slides along.
+    pub(crate) fn axis(&self, freedom: Freedom) -> [N; 3] {
+        self.axes[freedom.axis()].clone()
     }
 }
 

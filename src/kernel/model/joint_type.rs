@@ -62,6 +62,22 @@ impl Freedom {
         matches!(self, Freedom::Tx | Freedom::Ty | Freedom::Tz)
     }
 
+    /// Returns the place, among the axes x, y, z of the joint's frame, of the axis that it turns about or slides along.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::joint_type::Freedom;
+    /// assert_eq!([Freedom::Tx, Freedom::Ry, Freedom::Screw].map(Freedom::axis), [0, 1, 2]);
+    /// ```
+    #[must_use]
+    pub fn axis(self) -> usize {
+        match self {
+            Freedom::Rx | Freedom::Tx => 0,
+            Freedom::Ry | Freedom::Ty => 1,
+            Freedom::Rz | Freedom::Tz | Freedom::Screw => 2,
+        }
+    }
+
     /// Returns the freedom that a word names, if any.
     #[must_use]
     pub fn from_name(word: &str) -> Option<Freedom> {

@@ -2,6 +2,8 @@
 
 use crate::format::four_digits;
 use crate::geom::expr::Expr;
+use crate::geom::extent::box_diagonal;
+use crate::geom::vector::{Vector, across, cross, to_vector, unit};
 use crate::model::claim::Claim;
 use crate::model::joint_type::{Coupling, Freedom, JointType};
 use crate::model::loads::{Loads, MassProperties};
@@ -78,6 +80,14 @@ impl Frame {
         self.has_same_axis(other)
             && are_same(&self.reference, &other.reference)
             && self.pitch.is_same(&other.pitch)
+    }
+
+    /// Returns the unit vectors x, y, z.
+    #[must_use]
+    pub fn unit_axes(&self) -> [Vector; 3] {
+        let z = unit(to_vector(&self.axis));
+        let x = unit(across(to_vector(&self.reference), z));
+        [x, cross(z, x), z]
     }
 
     /// Returns true if the points and axes of two frames are written identically; `false` decides nothing.
@@ -306,6 +316,26 @@ impl Parts {
     /// Returns the joints with their ids, in file order.
     pub fn joints_with_ids(&self) -> impl Iterator<Item = (JointId, &Joint)> {
         self.joint_ids().zip(&self.joints)
+    }
+
+    /// Returns the first option of a name that a search may use or insert at any joint.
+    #[must_use]
+    pub fn option_named(&self, name: &str) -> Option<&JointOption> {
+        let mut all = self.joints.iter().flat_map(Joint::offered_options);
+        all.find(|o| o.name == name)
+    }
+
+    /// Returns the diagonal of the box around the joints, in the file's unit.
+    ///
+    /// # Examples
+    /// ```
+    /// // The joints are at (0, 0), (0, 30), (80, 90) and (120, 0), in mm.
+    /// assert_eq!(ozols::built_in("four-bar")?.distance_across(), 150.0);
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
+    #[must_use]
+    pub fn distance_across(&self) -> f64 {
+        box_diagonal(self.joints.iter().map(|j| to_vector(&j.frame.point)))
     }
 
     /// Returns the states' names with their ids, the free one first.

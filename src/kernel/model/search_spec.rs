@@ -43,6 +43,16 @@ pub struct CostSpec {
 impl CostSpec {
     /// Default cost of a link, in thousandths of a revolute joint.
     pub const LINK_MILLI: i64 = 1000;
+
+    /// Returns the costs that do not belong to a joint type, by the names that a file gives them.
+    pub fn other_costs(&mut self) -> [(&'static str, &mut Option<i64>); 4] {
+        [
+            ("change", &mut self.change_milli),
+            ("driven", &mut self.driven_milli),
+            ("link", &mut self.link_milli),
+            ("harmful", &mut self.harmful_milli),
+        ]
+    }
 }
 
 /// The condition on the drives of a redesign.

@@ -352,6 +352,16 @@ pub fn column_slides(pose: &Pose, column: usize) -> bool {
     pose.columns[column].freedom.is_slide()
 }
 
+/// Returns the number of radians, or of the file's units of length, in one unit of a column.
+#[must_use]
+pub fn column_unit(pose: &Pose, column: usize) -> f64 {
+    if column_slides(pose, column) {
+        pose.length
+    } else {
+        1.0
+    }
+}
+
 /// Returns the positions of a stroke in equal steps, including both ends.
 ///
 /// # Examples

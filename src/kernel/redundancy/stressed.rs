@@ -212,10 +212,8 @@ impl<'a> Stressed<'a> {
     /// Returns three perpendicular directions at a joint: along the single force or moment on it, perpendicular to the
     /// plane of two, and otherwise its own axes.
     fn joint_directions(&self, joint: JointId) -> [Vector; 3] {
-        let frame = &self.mechanism.joints[joint].frame;
-        let z = unit(to_vector(&frame.axis));
-        let x = unit(across(to_vector(&frame.reference), z));
-        let own = [z, x, cross(z, x)];
+        let [x, y, z] = self.mechanism.joints[joint].frame.unit_axes();
+        let own = [z, x, y];
         let special = |forces: bool| -> Option<Vector> {
             let found = svd(&self.carried_loads(joint, forces))?;
             let column = |i: usize| [0, 1, 2].map(|r| found.u[(r, i)]);

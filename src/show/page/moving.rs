@@ -6,7 +6,7 @@ use crate::format::decimals;
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::drive_range::{SLIDE, Way, follow_range as way_of};
-use crate::motion::follow::column_slides;
+use crate::motion::follow::{column_slides, column_unit};
 use crate::motion::jaws::jaws_meet;
 use crate::motion::pose::Pose;
 use crate::rank::stroke::request::{drive_or_any, lengths_where_it_slides, name_of};
@@ -63,7 +63,7 @@ impl Moving {
         (drive, held): (usize, Vec<usize>),
     ) -> anyhow::Result<Moving> {
         let slide = column_slides(&pose, drive);
-        let unit = if slide { pose.length } else { 1.0 };
+        let unit = column_unit(&pose, drive);
         let symbol = if slide { m.length_unit.symbol } else { "rad" };
         let asked = stroke_asked(m, slide, range, named)?;
         let steps = asked.map_or(STEPS, |s| s.steps.clamp(2, MOST));

@@ -3,9 +3,9 @@
 
 use crate::file::read::workload::WorkloadFile;
 use crate::grip::arm_curves::{Varied, arm_curve};
-use crate::grip::clamping::{DiameterRow, Hardest, HoldVerdict};
+use crate::grip::clamping::{DiameterRow, Hardest};
 use crate::grip::contact::TouchingPose;
-use crate::grip::holding::{Holding, Slip};
+use crate::grip::holding::{Holding, HoldingOutcome, Slip};
 use crate::grip::lever_arm::Arms;
 use crate::grip::{Grip, drive_effort};
 use crate::model::grip::GripSpec;
@@ -165,9 +165,9 @@ fn describe_slip(s: &Slip) -> String {
 /// Returns the reason why the hardest case is not held.
 fn hold_reason(h: &Hardest, friction: f64) -> Option<String> {
     match &h.verdict {
-        HoldVerdict::Held(_) => None,
-        HoldVerdict::Undecided(e) => Some(format!("{}: {e}", h.case)),
-        HoldVerdict::Slips(s) => {
+        Ok(HoldingOutcome::Held(_)) => None,
+        Err(e) => Some(format!("{}: {e}", h.case)),
+        Ok(HoldingOutcome::Slips(s)) => {
             let remedy = if friction == 0.0 {
                 "faces without friction cannot stop that; give friction"
             } else {

@@ -4,7 +4,7 @@ use super::{SMALL, lever};
 use crate::common::*;
 use ozols::file::read::workload::grip_from_bytes;
 use ozols::grip::arm_curves::{Varied, arm_curve};
-use ozols::grip::clamping::{DiameterRow, HoldVerdict, study_diameters};
+use ozols::grip::clamping::{DiameterRow, study_diameters};
 use ozols::grip::contact::Unholdable;
 use ozols::model::grip::GripSpec;
 
@@ -73,7 +73,7 @@ fn the_hardest_case_is_the_worst_of_all_directions() {
         let more = "centre_of_mass = [3, -5, 20]\nsafety = 1.7\n";
         let row = only(&spec(&format!("{file}{more}")));
         let hardest = row.hardest.as_ref().unwrap();
-        let HoldVerdict::Held(found) = &hardest.verdict else {
+        let Ok(HoldingOutcome::Held(found)) = &hardest.verdict else {
             panic!("{:?}", hardest.verdict)
         };
         let load = (2.0, [0.003, -0.005, 0.02], 1.7);

@@ -5,7 +5,7 @@ use crate::reactions::{effort, greatest_force};
 mod ranked;
 mod refused;
 
-use ozols::grip::clamping::{DiameterRow, HoldVerdict};
+use ozols::grip::clamping::DiameterRow;
 use ozols::grip::jaw_loads::Gripping;
 use ozols::model::loads::Loads;
 
@@ -216,7 +216,7 @@ fn a_grip_without_load_has_no_forces() {
     let g = clamped(&m);
     assert!(matches!(
         g.study.rows[0].hardest.as_ref().unwrap().verdict,
-        HoldVerdict::Held(_)
+        Ok(HoldingOutcome::Held(_))
     ));
     m.edit().loads.grip.as_mut().unwrap().load = None;
     let g = clamped(&m);

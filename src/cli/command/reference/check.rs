@@ -1,7 +1,7 @@
 //! `ozols check`, `show`, `schema` and `completions`.
 
 use crate::cli::prelude::*;
-use crate::file::lint::{check_file, mechanism_size};
+use crate::file::lint::check_file;
 use crate::file::locate::DocumentPath;
 use crate::file::problem::Warnings;
 use crate::file::read::workload::tables_alone;
@@ -53,7 +53,7 @@ pub(crate) fn run_check(args: &Global, a: &File) -> anyhow::Result<Done> {
     if !warnings.warnings.is_empty() && !args.quiet {
         output::coloured_note(&warnings.render(true));
     }
-    let lines = describe_mechanism(m, mechanism_size(m)).into_iter();
+    let lines = describe_mechanism(m).into_iter();
     let tables = checked.tables.iter();
     let tables = tables.map(|table| format!("workload {table}: for `ozols {table}`"));
     let lines = lines.chain(tables).map(|line| format!("  {line}\n"));

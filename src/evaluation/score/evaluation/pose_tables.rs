@@ -10,7 +10,6 @@ use crate::model::mechanism::{Joint, JointId, JointOption, LinkId, Mechanism, St
 use crate::motion::pose::Pose;
 use crate::score::evaluation::coupled::{CoupledChoice, PlacedCoupling, couplings_at};
 use crate::score::evaluation::load_cases::LoadCase;
-use crate::score::evaluation::terms::axis_of;
 use crate::score::joint_types::JointTypes;
 use crate::search::Search;
 use crate::search::question::space::Choice;
@@ -78,17 +77,15 @@ impl PlacedJoint {
             let forward = contour.direction_of(joint)?;
             Some((k, if forward { 1.0 } else { -1.0 }))
         });
-        let drive = drives.iter().find(|(j, _)| *j == joint);
+        let held = drives.iter().find(|(j, _)| *j == joint);
+        let held = held.filter(|(_, f)| *f != Freedom::Screw);
         PlacedJoint {
             joint,
             variable: 0,
             slot: 0,
             contours: through.collect(),
             point: geometry.points[joint],
-            held: drive.and_then(|(_, f)| {
-                let (axis, shift) = axis_of(*f)?;
-                Some((geometry.axes[joint][axis], shift))
-            }),
+            held: held.map(|(_, f)| (geometry.axes[joint][f.axis()], f.is_slide())),
             along_tree: Vec::new(),
             couplings: couplings_at(geometry, joint),
         }

@@ -2,12 +2,11 @@
 
 use crate::geom::expr::Expr;
 use crate::geom::vector::length;
-use crate::model::joint_type::Freedom;
 use crate::model::loads::{ExternalForce, Loads};
 use crate::model::mechanism::{JointId, JointOption, LinkId, StateId};
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::evaluate::PoseLoad;
-use crate::score::evaluation::terms::{ErrorSum, Scores, axis_of};
+use crate::score::evaluation::terms::{ErrorSum, Scores};
 use crate::score::joint_types::JointType;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::variant_mechanism;
@@ -18,13 +17,10 @@ use crate::statics::reactions::{JointReaction, Reactions, Uniqueness, Unsolved};
 /// Returns force and moment of a joint without the part that its drive bears.
 fn load_without_drive(r: &JointReaction) -> ([f64; 3], [f64; 3]) {
     let (mut f, mut m) = (r.force, r.moment);
-    let held = r
-        .effort
-        .and_then(|(freedom, _): (Freedom, f64)| axis_of(freedom));
-    match held {
-        Some((i, true)) => f[i] = 0.0,
-        Some((i, false)) => m[i] = 0.0,
-        None => {}
+    match r.effort {
+        Some((held, _)) if held.is_slide() => f[held.axis()] = 0.0,
+        Some((held, _)) if held.is_turn() => m[held.axis()] = 0.0,
+        _ => {}
     }
     (f, m)
 }

@@ -1,6 +1,5 @@
 //! The scores of one variant, and lower bounds on the terms of a ranking.
 
-use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
 use crate::model::ranking::{ClearanceSum, Ranking, Term};
 use crate::score::evaluation::load_cases::Cases;
@@ -195,19 +194,6 @@ impl ErrorSum {
 
     pub(in crate::score) fn output_error(&self) -> f64 {
         self.square.sqrt()
-    }
-}
-
-/// Returns the axis of the joint's frame that a freedom is along, and true if it is a translation.
-pub(in crate::score) fn axis_of(freedom: Freedom) -> Option<(usize, bool)> {
-    match freedom {
-        Freedom::Rx => Some((0, false)),
-        Freedom::Ry => Some((1, false)),
-        Freedom::Rz => Some((2, false)),
-        Freedom::Tx => Some((0, true)),
-        Freedom::Ty => Some((1, true)),
-        Freedom::Tz => Some((2, true)),
-        Freedom::Screw => None,
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::file::problem::ImportError;
 use crate::file::read::resolve::contains_option;
 use crate::file::read::search::costs_from_str;
-use crate::model::mechanism::{CostSpec, Joint, JointOption, Mechanism};
+use crate::model::mechanism::{Joint, JointOption, Mechanism};
 use crate::model::rounded::Rounded;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::rounded::verdict::Settled;
@@ -191,20 +191,14 @@ pub(super) fn read_costs(
     file: &str,
     text: &str,
 ) -> Result<(), ImportError> {
-    let stated = costs_from_str(file, text, mechanism)?;
-    let old = std::mem::take(&mut mechanism.edit().search.costs);
-    let mut by_type_milli = stated.by_type_milli;
-    let named = |list: &[(String, i64)], name: &str| list.iter().any(|(n, _)| n == name);
-    let kept = old.by_type_milli.into_iter();
-    let kept: Vec<_> = kept.filter(|(n, _)| !named(&by_type_milli, n)).collect();
-    by_type_milli.extend(kept);
-    by_type_milli.sort();
-    mechanism.edit().search.costs = CostSpec {
-        by_type_milli,
-        change_milli: stated.change_milli.or(old.change_milli),
-        link_milli: stated.link_milli.or(old.link_milli),
-        driven_milli: stated.driven_milli.or(old.driven_milli),
-        harmful_milli: stated.harmful_milli.or(old.harmful_milli),
-    };
+    let mut stated = costs_from_str(file, text, mechanism)?;
+    let costs = &mut mechanism.edit().search.costs;
+    let named = |name: &String| stated.by_type_milli.iter().any(|(n, _)| n == name);
+    costs.by_type_milli.retain(|(n, _)| !named(n));
+    costs.by_type_milli.append(&mut stated.by_type_milli);
+    costs.by_type_milli.sort();
+    for ((_, old), (_, new)) in costs.other_costs().into_iter().zip(stated.other_costs()) {
+        *old = new.or(*old);
+    }
     Ok(())
 }

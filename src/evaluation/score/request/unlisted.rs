@@ -51,10 +51,6 @@ const ANY: &str = "any";
 impl Request {
     /// Returns the request with the words of joint types in place of trade names that no joint has an option of; `None` if it has none.
     pub(in crate::score) fn in_words_of_types(&self, mechanism: &Mechanism) -> Option<Request> {
-        let offered = |name: &String| {
-            let mut all = mechanism.joints.iter().flat_map(Joint::offered_options);
-            all.any(|o| o.name == *name)
-        };
         let mut named = self.clone();
         let mut found = false;
         let rules = named.allow.iter_mut().chain(&mut named.forbid);
@@ -62,7 +58,7 @@ impl Request {
         let lists = rules.map(|rule| &mut rule.names).chain(inserts);
         for name in lists.chain([&mut named.options]).flatten() {
             let word = JointType::word_of_trade(name);
-            if word != name && !offered(name) {
+            if word != name && mechanism.option_named(name).is_none() {
                 *name = word.to_owned();
                 found = true;
             }

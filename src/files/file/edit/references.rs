@@ -25,7 +25,8 @@ const TABLES: [(&[&str], &str, Thing); 7] = [
     (&["workload", "misalignment"], "joint", Thing::Joint),
 ];
 
-fn id_of(table: &Table) -> Option<&str> {
+/// Returns the id of a table.
+pub(super) fn id_of(table: &Table) -> Option<&str> {
     table.get("id").and_then(Item::as_str)
 }
 

@@ -5,7 +5,6 @@ use crate::file::prelude::*;
 use crate::file::problem::ImportError;
 use crate::file::read::resolve::{contains_option, read_option};
 use crate::file::read::value::{LIMITS, used_twice};
-use crate::geom::extent::box_diagonal;
 use crate::model::mechanism::{CostSpec, Drives, SearchSpec};
 use crate::model::ranking::{ClearanceSum, Limit, Ranking, Term, TypeOverride};
 
@@ -86,8 +85,7 @@ fn check_images(mechanism: &Parts, pairs: &[(JointId, JointId)], at: &Place<'_>)
     let Some((_, misses)) = planes.first() else {
         return;
     };
-    let points = mechanism.joints.iter().map(|j| to_vector(&j.frame.point));
-    let size = box_diagonal(points);
+    let size = mechanism.distance_across();
     for ((at, &(a, b)), miss) in at.each_entry(pairs).zip(misses) {
         if miss.angle > NO_IMAGE || miss.distance > NO_IMAGE * size {
             let [first, second] = [a, b].map(|j| &mechanism.joints[j].id);
@@ -250,10 +248,7 @@ pub(crate) fn joint_types(
     out: &Findings,
 ) -> (Vec<TypeOverride>, Vec<(String, i64)>) {
     let (mut found, mut costs) = (Vec::new(), Vec::new());
-    let offered = |name: &str| {
-        let mut all = mechanism.joints.iter().flat_map(Joint::offered_options);
-        all.any(|o| o.name == name)
-    };
+    let offered = |name: &str| mechanism.option_named(name).is_some();
     for (name, entry) in &file.joint_types {
         let at = out.key("joint_types").key(name);
         let name = if offered(name) {
@@ -330,9 +325,6 @@ pub fn costs_from_str(name: &str, text: &str, mechanism: &Parts) -> Result<CostS
     out.finish(spec).map_err(located)
 }
 
-/// The names of costs that do not belong to a joint type.
-const OTHERS: [&str; 4] = ["change", "driven", "link", "harmful"];
-
 pub(crate) fn read_costs(stated: &BTreeMap<String, f64>, m: &Parts, at: &Place<'_>) -> CostSpec {
     let mut spec = CostSpec::default();
     let offered = m.joints.iter().flat_map(Joint::offered_options);
@@ -342,11 +334,12 @@ pub(crate) fn read_costs(stated: &BTreeMap<String, f64>, m: &Parts, at: &Place<'
         let Some(milli) = at.read_cost(value) else {
             continue;
         };
+        let other = spec.other_costs().into_iter().find(|(n, _)| n == name);
+        if let Some((_, cost)) = other {
+            *cost = Some(milli);
+            continue;
+        }
         match name.as_str() {
-            "change" => spec.change_milli = Some(milli),
-            "driven" => spec.driven_milli = Some(milli),
-            "link" => spec.link_milli = Some(milli),
-            "harmful" => spec.harmful_milli = Some(milli),
             class if JointType::CLASSES.contains(&class) => {
                 spec.by_type_milli.push((class.to_owned(), milli))
             }
@@ -357,7 +350,8 @@ pub(crate) fn read_costs(stated: &BTreeMap<String, f64>, m: &Parts, at: &Place<'
             }
             _ => {
                 let types = JointType::NAMED.iter().map(JointType::name);
-                let known = OTHERS.into_iter().chain(types).chain(JointType::CLASSES);
+                let others = CostSpec::default().other_costs().map(|(n, _)| n);
+                let known = others.into_iter().chain(types).chain(JointType::CLASSES);
                 let mut known: Vec<&str> = known.collect();
                 known.extend(&offered);
                 at.add_unknown_word("cost", name, known.iter().unique());

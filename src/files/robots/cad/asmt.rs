@@ -150,8 +150,8 @@ fn read_connection(e: Element<'_>, markers: &Markers) -> Read<Connection> {
         let said = required_child(e, label)?;
         let path = said.text();
         markers.get(path).copied().ok_or_else(|| {
-            let known = list_known("markers", markers.keys());
-            said.error_at(None, unknown_name(&label_of(e), "marker", path, &known))
+            let problem = unknown_name(&label_of(e), ["marker", "markers"], path, markers.keys());
+            said.error_at(None, problem)
         })
     };
     let ((i, near), (j, far)) = (end("MarkerI")?, end("MarkerJ")?);

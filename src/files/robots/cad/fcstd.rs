@@ -138,8 +138,8 @@ fn choose_assembly<'a>(
     if let Some(wanted) = &options.assembly {
         let named = |o: &&Object<'a>| o.label() == wanted || o.name == wanted;
         return all.iter().find(named).copied().ok_or_else(|| {
-            let known = list_known("assemblies", all.iter().map(Object::label));
-            let problem = unknown_name("the option `assembly`", "assembly", wanted, &known);
+            let (what, known) = (["assembly", "assemblies"], all.iter().map(Object::label));
+            let problem = unknown_name("the option `assembly`", what, wanted, known);
             root.error_at(None, problem)
         });
     }

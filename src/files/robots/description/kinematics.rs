@@ -45,12 +45,12 @@ pub(crate) fn spanning_tree(robot: &Robot, frame: usize) -> Tree {
 fn freedom_motion(part: &Part, freedom: Freedom, value: f64) -> RigidMotion {
     let d = unit_or_z(part.direction(freedom));
     match freedom {
-        Freedom::Rx | Freedom::Ry | Freedom::Rz => RigidMotion::from_turn(d, value),
-        Freedom::Tx | Freedom::Ty | Freedom::Tz => RigidMotion::from_translation(scale(d, value)),
         Freedom::Screw => RigidMotion {
             translation: scale(d, value * part.pitch),
             ..RigidMotion::from_turn(d, value)
         },
+        f if f.is_slide() => RigidMotion::from_translation(scale(d, value)),
+        _ => RigidMotion::from_turn(d, value),
     }
 }
 

@@ -190,8 +190,8 @@ fn find_place(element: &str, name: &str, robot: &Robot) -> Found<End> {
         return Ok((j.links[1], j.sides[1]));
     }
     robot.frame(name).ok_or_else(|| {
-        let known = list_known("links and frames", robot.frames.keys());
-        unknown_name(element, "link, frame or joint", name, &known)
+        let what = ["link, frame or joint", "links and frames"];
+        unknown_name(element, what, name, robot.frames.keys())
     })
 }
 
@@ -226,10 +226,8 @@ fn retype_joints(of: &Value, robot: &mut Robot) -> Found<()> {
         )));
     }
     for (name, kind) in names.iter().zip(&types) {
-        let Some(joint) = robot.joints.iter_mut().find(|j| j.id == *name) else {
-            let known = list_known("joints", robot.joints.iter().map(|j| &j.id));
-            return Err(unknown_name("joint_name", "joint", name, &known));
-        };
+        let at = robot.joint_named("joint_name", name)?;
+        let joint = &mut robot.joints[at];
         let axis = |letter: u8| {
             let known = [(b'X', X), (b'Y', Y), (b'Z', Z)];
             known.into_iter().find(|a| a.0 == letter).map(|a| a.1)

@@ -2,6 +2,7 @@
 
 use crate::file::problem::line_and_column;
 use crate::format::three_digits;
+use crate::motion::follow::column_unit;
 use crate::motion::pose::Pose;
 use crate::robots::cad;
 use crate::robots::cad::archive::Archive;
@@ -71,11 +72,10 @@ impl Origin {
     /// Returns true if all joints of one freedom are within their limits in a pose.
     #[must_use]
     pub fn is_inside(&self, pose: &Pose) -> bool {
-        pose.columns.iter().all(|c| {
-            let slides = c.freedom.is_slide();
-            let unit = if slides { pose.length } else { 1.0 };
+        pose.columns.iter().enumerate().all(|(at, c)| {
             let part = self.part_of(c.joint);
-            part.exceeded_limits(c.moved * unit).is_none()
+            part.exceeded_limits(c.moved * column_unit(pose, at))
+                .is_none()
         })
     }
 

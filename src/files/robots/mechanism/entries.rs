@@ -180,14 +180,6 @@ const NAMES: &str = "foot feet toe hand palm tool tool0 tcp ee eef effector flan
 /// Words that may follow them.
 const IDLE: &str = "link body frame left right l r front rear";
 
-/// Returns the link that an option names.
-pub(crate) fn link_of(robot: &Robot, name: &str, option: &str) -> Found<usize> {
-    robot.links.iter().position(|l| l == name).ok_or_else(|| {
-        let known = list_known("links", &robot.links);
-        unknown_name(&format!("the option `{option}`"), "link", name, &known)
-    })
-}
-
 /// Returns the output links by their representatives, and a floating base. Output links are the first that exist of: requested links, end
 /// effectors by name, ends of chains with a shape or a site, all ends, the farthest link from the frame.
 pub(crate) fn output_links(
@@ -199,7 +191,7 @@ pub(crate) fn output_links(
 ) -> Found<Vec<usize>> {
     let mut out = Vec::new();
     for name in &options.outputs {
-        let b = bodies[link_of(robot, name, "working_link")?];
+        let b = bodies[robot.link_named("the option `working_link`", name)?];
         if b == frame {
             return Err(syntax_problem(format!(
                 "link \"{name}\" is the frame or fixed to it; name a link that moves"

@@ -1,6 +1,5 @@
 //! Joints in metres and double precision, taken apart into single freedoms.
 
-use crate::geom::vector::{across, unit};
 use crate::model::mechanism::Joint;
 use crate::robots::prelude::*;
 
@@ -12,41 +11,20 @@ pub(crate) struct JointAxes {
     pub(in crate::robots) pitch: f64,
 }
 
-/// A single freedom, about or along its axis.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Single {
-    Turn(Vector),
-    Shift(Vector),
-    Screw(Vector, f64),
+impl JointAxes {
+    /// Returns the axis that a freedom turns about or slides along.
+    pub(crate) fn axis(&self, freedom: Freedom) -> Vector {
+        self.axes[freedom.axis()]
+    }
 }
 
 pub(crate) fn joint_axes(m: &Mechanism, j: &Joint) -> JointAxes {
     let metres = m.length_unit.metres;
-    let z = unit(to_vector(&j.frame.axis));
-    let x = unit(across(to_vector(&j.frame.reference), z));
-    let y = cross(z, x);
     JointAxes {
         point: to_vector(&j.frame.point).map(|c| c * metres),
-        axes: [x, y, z],
+        axes: j.frame.unit_axes(),
         pitch: j.frame.pitch.to_f64() * metres,
     }
-}
-
-/// Returns the freedoms one by one.
-pub(crate) fn single_freedoms(j: &JointType, p: &JointAxes) -> Vec<Single> {
-    let [x, y, z] = p.axes;
-    j.freedoms()
-        .iter()
-        .map(|f| match f {
-            Freedom::Rx => Single::Turn(x),
-            Freedom::Ry => Single::Turn(y),
-            Freedom::Rz => Single::Turn(z),
-            Freedom::Tx => Single::Shift(x),
-            Freedom::Ty => Single::Shift(y),
-            Freedom::Tz => Single::Shift(z),
-            Freedom::Screw => Single::Screw(z, p.pitch),
-        })
-        .collect()
 }
 
 /// Removes the rounding errors of scaling from a number.

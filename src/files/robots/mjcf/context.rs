@@ -156,8 +156,8 @@ impl<'a> Defaults<'a> {
         if let Some(c) = given
             && !self.classes.contains_key(c)
         {
-            let known = list_known("classes", self.classes.keys());
-            return Err(e.unknown_name("class", "default class", c, &known));
+            let what = ["default class", "classes"];
+            return Err(e.unknown_name(Some("class"), what, c, self.classes.keys()));
         }
         let mut places = vec![e];
         // A class is only ever within one that was read before, so that this ends; the bound is for repeated names.
@@ -176,21 +176,9 @@ impl<'a> Defaults<'a> {
 }
 
 impl<'a> Lookup<'a> {
-    /// Returns an attribute and its element.
-    pub(crate) fn attribute(&self, name: &str) -> Option<(Element<'a>, &'a str)> {
-        self.places
-            .iter()
-            .find_map(|e| e.attribute(name).map(|v| (*e, v)))
-    }
-
-    pub(crate) fn numbers<const N: usize>(&self, name: &str) -> Read<Option<[f64; N]>> {
-        match self.attribute(name) {
-            Some((e, _)) => e.read_numbers::<N>(name),
-            None => Ok(None),
-        }
-    }
-
-    pub(crate) fn vector(&self, name: &str, default: Vector) -> Read<Vector> {
-        Ok(self.numbers::<3>(name)?.unwrap_or(default))
+    /// Returns the element that gives an attribute; the first if none does.
+    pub(crate) fn of(&self, name: &str) -> Element<'a> {
+        let given = self.places.iter().find(|e| e.attribute(name).is_some());
+        *given.unwrap_or(&self.places[0])
     }
 }

@@ -17,7 +17,7 @@ pub(crate) fn read_equalities(
             Some(n) => n.to_owned(),
             None => format!("{}-{}", e.name(), i + 1),
         };
-        if look.attribute("active").is_some_and(|(_, v)| v == "false") {
+        if look.of("active").attribute("active") == Some("false") {
             robot.report.drop_element("inactive equality", &id);
             continue;
         }
@@ -29,11 +29,12 @@ pub(crate) fn read_equalities(
             "weld" => {
                 let ends = read_ends(e, context, robot)?;
                 let (mut ends, mut kind) = (ends, JointType::Fixed);
-                if look.numbers::<1>("torquescale")? == Some([0.0]) {
+                if look.of("torquescale").read_numbers("torquescale")? == Some([0.0]) {
                     kind = JointType::Spherical;
                     if e.attribute("site1").is_none() {
                         // Without torque it is a ball at its anchor, which is given in the second body.
-                        let at = RigidMotion::from_translation(look.vector("anchor", [0.0; 3])?);
+                        let at = look.of("anchor").read_vector("anchor", [0.0; 3])?;
+                        let at = RigidMotion::from_translation(at);
                         let [(one, first), (two, second)] = ends;
                         ends = [(one, first.then(&second.inverse()).then(&at)), (two, at)];
                     }
@@ -61,8 +62,7 @@ fn read_ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Read<[End;
         let site = |key: &'static str| {
             let name = e.required_attribute(key)?;
             context.sites.get(name).copied().ok_or_else(|| {
-                let known = list_known("sites", context.sites.keys());
-                e.unknown_name(key, "site", name, &known)
+                e.unknown_name(Some(key), ["site", "sites"], name, context.sites.keys())
             })
         };
         return Ok([site("site1")?, site("site2")?]);
@@ -73,10 +73,11 @@ fn read_ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Read<[End;
         } else {
             e.required_attribute(key)?
         };
-        robot.links.iter().position(|l| l == name).ok_or_else(|| {
-            let known = list_known("bodies", &robot.links);
-            e.unknown_name(key, "body", name, &known)
-        })
+        robot
+            .links
+            .iter()
+            .position(|l| l == name)
+            .ok_or_else(|| e.unknown_name(Some(key), ["body", "bodies"], name, &robot.links))
     };
     let (one, two) = (body("body1")?, body("body2")?);
     let as_drawn = |at: RigidMotion| {
@@ -103,10 +104,8 @@ fn read_coupling(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     let mut names = vec![e.required_attribute("joint1")?];
     names.extend(e.attribute("joint2"));
     for (name, key) in names.iter().zip(["joint1", "joint2"]) {
-        if !robot.joints.iter().any(|j| j.id == *name) {
-            let known = list_known("joints", robot.joints.iter().map(|j| &j.id));
-            return Err(e.unknown_name(key, "joint", name, &known));
-        }
+        let found = robot.joint_named(&e.label(), name);
+        found.map_err(|p| e.error_at(Some(key), p))?;
     }
     let [a, b] = names[..] else {
         let [value, ..] = read_polynomial(e)?;
@@ -178,8 +177,8 @@ fn tendon_length<'a>(e: Element<'a>, key: &str, root: Element<'a>) -> Read<Optio
         .flat_map(|s| s.children().collect::<Vec<_>>());
     let all: Vec<Element<'a>> = all.collect();
     let Some(tendon) = all.iter().find(|t| t.attribute("name") == Some(name)) else {
-        let known = list_known("tendons", all.iter().filter_map(|t| t.attribute("name")));
-        return Err(e.unknown_name(key, "tendon", name, &known));
+        let known = all.iter().filter_map(|t| t.attribute("name"));
+        return Err(e.unknown_name(Some(key), ["tendon", "tendons"], name, known));
     };
     if tendon.name() != "fixed" {
         return Ok(None);

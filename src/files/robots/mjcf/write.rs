@@ -6,8 +6,7 @@ use crate::closure::tree::spanning_tree;
 use crate::robots::description::physical::{GRAM, left_out, moving_inertial, write_head};
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
-    Names, Single, clean_number, escape_comment, escape_xml, format_numbers, joint_axes,
-    single_freedoms, write_attributes,
+    Names, clean_number, escape_comment, escape_xml, format_numbers, joint_axes, write_attributes,
 };
 use crate::robots::prelude::*;
 
@@ -118,15 +117,14 @@ impl MjcfWriter<'_> {
             return vec![line];
         }
         let mut out = Vec::new();
-        let all = single_freedoms(&joint.joint_type, &p);
-        for (single, &freedom) in all.iter().zip(joint.joint_type.freedoms()) {
+        for &freedom in joint.joint_type.freedoms() {
             let wanted = match out.len() {
                 0 => joint.id.clone(),
                 n => format!("{}~{}", joint.id, n + 1),
             };
             let name = self.joint_names.fit_name(&wanted);
-            let mut line = |name: &str, kind: &str, d: Vector| {
-                let axis = format_numbers(d.map(|x| sign * x));
+            let axis = format_numbers(p.axis(freedom).map(|x| sign * x));
+            let mut line = |name: &str, kind: &str| {
                 let own = [
                     ("name", name),
                     ("type", kind),
@@ -135,16 +133,12 @@ impl MjcfWriter<'_> {
                 ];
                 out.push(format!("<joint{}/>", write_attributes(own)));
             };
-            match *single {
-                Single::Turn(d) => line(&name, "hinge", d),
-                Single::Shift(d) => line(&name, "slide", d),
-                Single::Screw(d, pitch) => {
-                    let slide = self.joint_names.fit_name(&format!("{wanted}~thread"));
-                    line(&name, "hinge", d);
-                    line(&slide, "slide", d);
-                    let coupling = joint_equality(&slide, &name, pitch);
-                    self.equalities.push(coupling);
-                }
+            line(&name, if freedom.is_slide() { "slide" } else { "hinge" });
+            if freedom == Freedom::Screw {
+                let slide = self.joint_names.fit_name(&format!("{wanted}~thread"));
+                line(&slide, "slide");
+                let coupling = joint_equality(&slide, &name, p.pitch);
+                self.equalities.push(coupling);
             }
             self.joints.insert((j, freedom), name);
         }

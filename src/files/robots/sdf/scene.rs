@@ -88,9 +88,7 @@ pub(crate) fn insert<'a>(scene: &mut SdfScene<'a>, name: String, p: Placed<'a>) 
 }
 
 pub(crate) fn unknown_name_error(e: Element<'_>, name: &str, scene: &SdfScene<'_>) -> ImportError {
-    let known = list_known("names", scene.placed.keys());
-    let problem = unknown_name(&e.label(), "link or frame", name, &known);
-    e.error_at(None, problem)
+    e.unknown_name(None, ["link or frame", "names"], name, scene.placed.keys())
 }
 
 /// Works out all places in the world.

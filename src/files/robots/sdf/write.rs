@@ -4,8 +4,7 @@ use crate::robots::description::coupling::{Follows, find_mimics};
 use crate::robots::description::physical::{LIGHT_SDF, left_out, moving_inertial, write_head};
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
-    JointAxes, Names, Single, clean_number, escape_comment, escape_xml, format_numbers, joint_axes,
-    single_freedoms,
+    JointAxes, Names, clean_number, escape_comment, escape_xml, format_numbers, joint_axes,
 };
 use crate::robots::prelude::*;
 
@@ -126,21 +125,21 @@ impl SdfWriter<'_> {
             write_joint(&mut self.body, &id, kind, [&a, &b], p.point, &more);
             return;
         }
-        let mut all = single_freedoms(&joint.joint_type, &p);
+        let mut all = joint.joint_type.freedoms().to_vec();
         if back {
             all.reverse();
         }
-        self.write_series(j, &all, [a, b], p.point);
+        self.write_series(j, &all, [a, b], &p);
     }
 
     /// Writes freedoms in series, through light links; a fixed joint if there are none.
-    fn write_series(&mut self, j: JointId, all: &[Single], ends: [String; 2], at: [f64; 3]) {
+    fn write_series(&mut self, j: JointId, all: &[Freedom], ends: [String; 2], p: &JointAxes) {
         let [mut from, end] = ends;
         let id = self.ids[j].clone();
         if all.is_empty() {
-            write_joint(&mut self.body, &id, "fixed", [&from, &end], at, "");
+            write_joint(&mut self.body, &id, "fixed", [&from, &end], p.point, "");
         }
-        for (i, single) in all.iter().enumerate() {
+        for (i, &freedom) in all.iter().enumerate() {
             let to = if i + 1 == all.len() {
                 end.clone()
             } else {
@@ -153,9 +152,9 @@ impl SdfWriter<'_> {
                 0 => id.clone(),
                 _ => self.names.fit_name(&format!("{id}~joint{}", i + 1)),
             };
-            let (kind, more) = single_joint(*single);
+            let (kind, more) = single_joint(freedom, p);
             let more = self.with_mimic(j, more);
-            write_joint(&mut self.body, &part, kind, [&from, &to], at, &more);
+            write_joint(&mut self.body, &part, kind, [&from, &to], p.point, &more);
             from = to;
         }
     }
@@ -188,10 +187,7 @@ fn sdf_joint(t: &JointType, p: &JointAxes, back: bool) -> Option<(&'static str, 
     let (first, second) = if back { (x, z) } else { (z, x) };
     Some(match t {
         JointType::Revolute | JointType::Prismatic | JointType::Helical => {
-            let [single] = single_freedoms(t, p)[..] else {
-                return None;
-            };
-            single_joint(single)
+            single_joint(*t.freedoms().first()?, p)
         }
         JointType::Universal => {
             let axes = write_axis("axis", first) + &write_axis("axis2", second);
@@ -203,15 +199,17 @@ fn sdf_joint(t: &JointType, p: &JointAxes, back: bool) -> Option<(&'static str, 
     })
 }
 
-fn single_joint(s: Single) -> (&'static str, String) {
-    match s {
-        Single::Turn(d) => ("revolute", write_axis("axis", d)),
-        Single::Shift(d) => ("prismatic", write_axis("axis", d)),
-        Single::Screw(d, pitch) => {
-            let turn = pitch * std::f64::consts::TAU;
+/// Returns the SDF joint of one freedom, and its content.
+fn single_joint(freedom: Freedom, p: &JointAxes) -> (&'static str, String) {
+    let axis = write_axis("axis", p.axis(freedom));
+    match freedom {
+        Freedom::Screw => {
+            let turn = p.pitch * std::f64::consts::TAU;
             let thread = format!("      <screw_thread_pitch>{turn}</screw_thread_pitch>\n");
-            ("screw", write_axis("axis", d) + &thread)
+            ("screw", axis + &thread)
         }
+        f if f.is_slide() => ("prismatic", axis),
+        _ => ("revolute", axis),
     }
 }
 

@@ -7,8 +7,7 @@ use crate::robots::description::physical::{
 };
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
-    Names, Single, clean_number, escape_comment, escape_xml, format_numbers, joint_axes,
-    single_freedoms, write_attributes,
+    Names, clean_number, escape_comment, escape_xml, format_numbers, joint_axes, write_attributes,
 };
 use crate::robots::prelude::*;
 
@@ -221,18 +220,17 @@ fn joint_kinds(m: &Mechanism, j: JointId, sign: f64) -> Result<Vec<Kind>, Export
         t if t.freedoms().len() == 6 => return Ok(vec![("floating", None)]),
         _ => {}
     }
-    let single = |s: Single| match s {
-        Single::Turn(d) => Ok(("continuous", turned(d))),
-        Single::Shift(d) => Ok(("prismatic", turned(d))),
-        Single::Screw(..) => Err(ExportError::Joint {
+    let single = |&f: &Freedom| match f {
+        Freedom::Screw => Err(ExportError::Joint {
             joint: joint.id.clone(),
             kind: joint.joint_type.name().to_owned(),
             format: "URDF",
             remedy: "write SDF instead",
         }),
+        f if f.is_slide() => Ok(("prismatic", turned(p.axis(f)))),
+        f => Ok(("continuous", turned(p.axis(f)))),
     };
-    let all = single_freedoms(&joint.joint_type, &p).into_iter();
-    all.map(single).collect()
+    joint.joint_type.freedoms().iter().map(single).collect()
 }
 
 fn tree_joint(id: &str, joint: &Kind, ends: [&str; 2], at: [f64; 3], more: &str) -> String {

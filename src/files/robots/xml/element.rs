@@ -128,8 +128,14 @@ impl<'a> Element<'a> {
     }
 
     /// Returns the error for an attribute or text that names something unknown.
-    pub(crate) fn unknown_name(self, key: &str, what: &str, id: &str, known: &str) -> ImportError {
-        self.error_at(Some(key), unknown_name(&self.label(), what, id, known))
+    pub(crate) fn unknown_name(
+        self,
+        key: Option<&str>,
+        what: [&str; 2],
+        name: &str,
+        known: impl IntoIterator<Item: AsRef<str>>,
+    ) -> ImportError {
+        self.error_at(key, unknown_name(&self.label(), what, name, known))
     }
 }
 

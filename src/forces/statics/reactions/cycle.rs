@@ -3,7 +3,7 @@
 use crate::closure::drive::{Driven, driven_freedoms};
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::motion::follow::{Follower, column_slides};
+use crate::motion::follow::{Follower, column_unit};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::contact::Contacts;
 use crate::statics::reactions::loads::Borne;
@@ -130,7 +130,7 @@ pub fn follow_to(
     for (n, &c) in others.iter().enumerate() {
         match (speeds.first(), speeds.get(n + 1)) {
             (Some(&v), Some(&own)) if v != 0.0 && own != 0.0 => {
-                let ratio = own / v * unit / self::column_unit(&start, c);
+                let ratio = own / v * unit / column_unit(&start, c);
                 start = start.with_coupling(first, c, ratio);
             }
             _ => still.push(c),
@@ -154,13 +154,4 @@ pub fn follow_to(
     }
     out.poses.sort_by(|a, b| a.0.total_cmp(&b.0));
     Ok(out)
-}
-
-/// Returns the number of radians, or of the file's units of length, in one unit of a column.
-fn column_unit(pose: &Pose, column: usize) -> f64 {
-    if column_slides(pose, column) {
-        pose.length
-    } else {
-        1.0
-    }
 }

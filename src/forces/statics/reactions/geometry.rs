@@ -124,9 +124,7 @@ impl Geometry {
     /// at the pose of the file.
     #[must_use]
     pub fn point_position(&self, pose: &Pose, link: LinkId, point: [f64; 3]) -> [f64; 3] {
-        let (mean, spread) = self.pose;
-        let p = pose.carry_point(&pose.links, link, point);
-        sub(p, mean).map(|x| x / spread)
+        self.of_file(pose.carry_point(&pose.links, link, point))
     }
 
     /// Converts a point from the middle, in the size, to metres from the origin of the file.

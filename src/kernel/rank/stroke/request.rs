@@ -5,7 +5,7 @@ use crate::geom::exact::ExactError;
 use crate::model::joint_type::Freedom;
 use crate::model::loads;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::motion::follow::{Follower, column_slides};
+use crate::motion::follow::{Follower, column_slides, column_unit};
 use crate::motion::pose::{FLAT, Pose};
 use crate::rank::rounded::verdict::RankVerdict;
 use crate::rank::stroke::analysis::StrokeRequest;
@@ -149,7 +149,7 @@ impl<'a> StrokeRequest<'a> {
         let (drive, held) = find_drive(m, &pose, state, named)?;
         let slide = column_slides(&pose, drive);
         lengths_where_it_slides(m, slide, text)?;
-        let far = 1e3 * if slide { pose.length } else { 1.0 };
+        let far = 1e3 * column_unit(&pose, drive);
         if range.steps > MOST || range.from.abs() > far || range.to.abs() > far {
             return Err(AskedError::Far(far));
         }

@@ -76,18 +76,9 @@ pub(crate) fn shapes_extent(shapes: &[Shape]) -> Rect {
 pub(crate) fn driven_slides(m: &Mechanism, state: StateId) -> Vec<(JointId, usize)> {
     let driven = driven_freedoms(m, state).into_iter();
     driven
-        .filter_map(|(j, f)| Some((j, slide_axis_of(f)?)))
+        .filter(|(_, f)| f.is_slide())
+        .map(|(j, f)| (j, f.axis()))
         .collect()
-}
-
-/// Returns the axis of a slide.
-fn slide_axis_of(freedom: Freedom) -> Option<usize> {
-    match freedom {
-        Freedom::Tx => Some(0),
-        Freedom::Ty => Some(1),
-        Freedom::Tz => Some(2),
-        Freedom::Rx | Freedom::Ry | Freedom::Rz | Freedom::Screw => None,
-    }
 }
 
 /// Returns the arrow around a driving pair that turns. It is not a full circle, because that means a second joint.

@@ -6,19 +6,19 @@ use crate::view::prelude::*;
 /// Names shown of a list.
 const SHOWN: usize = 12;
 
-/// Returns the links, joints, states, options and workload of a mechanism, a line each; `across` is its size in the file's unit.
+/// Returns the links, joints, states, options and workload of a mechanism, a line each.
 ///
 /// # Examples
 /// ```
-/// use ozols::{file::lint::mechanism_size, view::analysis::mechanism::describe_mechanism};
+/// use ozols::view::analysis::mechanism::describe_mechanism;
 /// let four_bar = ozols::built_in("four-bar")?;
-/// let lines = describe_mechanism(&four_bar, mechanism_size(&four_bar));
+/// let lines = describe_mechanism(&four_bar);
 /// assert!(lines[0].contains("4 links") && lines[0].contains("150 mm"));
 /// # Ok::<(), ozols::Error>(())
 /// ```
-pub fn describe_mechanism(m: &Mechanism, across: f64) -> Vec<String> {
+pub fn describe_mechanism(m: &Mechanism) -> Vec<String> {
     let mut out = vec![
-        describe_links(m, across),
+        describe_links(m),
         describe_joints(m),
         describe_states(m),
         describe_search(m),
@@ -27,7 +27,7 @@ pub fn describe_mechanism(m: &Mechanism, across: f64) -> Vec<String> {
     out
 }
 
-fn describe_links(m: &Mechanism, across: f64) -> String {
+fn describe_links(m: &Mechanism) -> String {
     let of = |role| {
         let with = m.links.iter().filter(move |l| l.role == role);
         with.map(|l| l.id.as_str()).collect_vec()
@@ -48,7 +48,7 @@ fn describe_links(m: &Mechanism, across: f64) -> String {
         "{} ({}), {mode}; joints {} {} across",
         count_noun(m.links.len(), "link"),
         roles.join("; "),
-        four_digits(across),
+        four_digits(m.distance_across()),
         m.length_unit.symbol
     )
 }

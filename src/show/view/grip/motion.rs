@@ -1,6 +1,6 @@
 //! The clamping force along a motion: one value from which text, JSON and a chart are made. SI units.
 
-use crate::grip::clamping::HoldVerdict;
+use crate::grip::holding::HoldingOutcome;
 use crate::grip::motion::StepTaken;
 use crate::model::mechanism::LengthUnit;
 use crate::view::prelude::*;
@@ -19,9 +19,9 @@ pub struct GripMotion {
 
 fn step_word(s: &StepTaken) -> &'static str {
     match &s.verdict {
-        Some(HoldVerdict::Held(_)) => "can hold",
-        Some(HoldVerdict::Slips(_)) => "slips",
-        Some(HoldVerdict::Undecided(_)) => "undecided",
+        Some(Ok(HoldingOutcome::Held(_))) => "can hold",
+        Some(Ok(HoldingOutcome::Slips(_))) => "slips",
+        Some(Err(_)) => "undecided",
         None => "cannot be held",
     }
 }
@@ -29,16 +29,13 @@ fn step_word(s: &StepTaken) -> &'static str {
 impl GripMotion {
     /// Returns whether the part can be held at every step.
     pub fn holds(&self) -> bool {
-        self.steps.iter().all(|s| s.drive_moment().is_some())
+        self.steps.iter().all(|s| s.held_forces().is_some())
     }
 
     /// Returns it as data.
     pub(super) fn json(&self) -> Value {
         let step = |s: &StepTaken| {
-            let bound = match &s.verdict {
-                Some(HoldVerdict::Held(h)) => Some(h.lower_bound),
-                _ => None,
-            };
+            let held = s.held_forces();
             json!({
                 "time": s.of.time,
                 "diameter": s.diameter,
@@ -46,8 +43,8 @@ impl GripMotion {
                 // Gravity less acceleration.
                 "pull": s.pull,
                 "verdict": step_word(s),
-                "drive_moment_per_lever": s.drive_moment(),
-                "lower_bound": bound,
+                "drive_moment_per_lever": held.map(|h| h.drive),
+                "lower_bound": held.map(|h| h.lower_bound),
                 "drive_effort": s.effort.map(|e| e.0),
             })
         };
@@ -56,7 +53,10 @@ impl GripMotion {
 
     /// Describes whether the grip can hold the part, and with what moments.
     fn motion_verdict(&self) -> String {
-        let moments = self.steps.iter().filter_map(StepTaken::drive_moment);
+        let moments = self
+            .steps
+            .iter()
+            .filter_map(|s| Some(s.held_forces()?.drive));
         let least = moments.clone().fold(f64::INFINITY, f64::min);
         let most = moments.clone().fold(0.0, f64::max);
         match self.steps.len() - moments.clone().count() {
@@ -87,8 +87,9 @@ impl GripMotion {
         let rows = self.steps.iter().take(SHOWN).enumerate().map(|(i, s)| {
             let diameter = four_digits(s.diameter / self.unit.metres);
             let acceleration = s.of.acceleration.map(four_digits).join(", ");
+            let moment = s.held_forces().map(|h| h.drive);
             let [time, drive, effort] =
-                [s.of.time, s.drive_moment(), s.effort.map(|e| e.0)].map(format_or_dash);
+                [s.of.time, moment, s.effort.map(|e| e.0)].map(format_or_dash);
             row_cells([
                 &(i + 1),
                 &time,
@@ -114,7 +115,7 @@ impl GripMotion {
         #[allow(clippy::cast_precision_loss, reason = "at most 1e5 steps")]
         let at = |i: usize, s: &StepTaken| s.of.time.filter(|_| timed).unwrap_or(i as f64 + 1.0);
         let points = self.steps.iter().enumerate();
-        let points = points.map(|(i, s)| (at(i, s), s.drive_moment().unwrap_or(f64::NAN)));
+        let points = points.map(|(i, s)| (at(i, s), s.held_forces().map_or(f64::NAN, |h| h.drive)));
         Chart {
             title: format!("{mechanism}: least drive moment per lever along the motion"),
             subtitle: "Broken where the part cannot be held.".to_owned(),

@@ -2,7 +2,6 @@
 
 use crate::file::prelude::*;
 use crate::geom::expr::{End, WrittenNumber};
-use crate::geom::extent::box_diagonal;
 use std::fmt::Display;
 
 /// A number that a file may give.
@@ -160,7 +159,7 @@ const MOST_SHIFT: f64 = 0.1;
 
 /// Replaces the uncertainties that follow from the digits by the stated ones.
 pub(crate) fn read_tolerance(file: &MechanismFile, m: &mut Parts, out: &Findings) {
-    let across = box_diagonal(m.joints.iter().map(|j| to_vector(&j.frame.point)));
+    let across = m.distance_across();
     // Joints that are all in one place have no size.
     let tenth = MOST_SHIFT * across;
     let most = if across > 0.0 { tenth } else { f64::INFINITY };

@@ -4,7 +4,7 @@
 //! another way. Which joints share all contours does not depend on the basis of contours.
 
 use crate::closure::contour::contour_basis;
-use crate::geom::vector::{across, cross, to_vector, unit};
+
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
 use crate::search::answer::k_best::Assignment;
@@ -160,20 +160,14 @@ fn joints_in_series(m: &Mechanism, state: StateId) -> BTreeMap<JointId, Vec<Join
 
 /// Returns the names of an option's freedoms, by their directions.
 fn freedom_names(option: &JointOption) -> Vec<String> {
-    let z = unit(to_vector(&option.frame.axis));
-    let x = unit(across(to_vector(&option.frame.reference), z));
-    let y = cross(z, x);
+    let axes = option.frame.unit_axes();
     let word = |f: &Freedom| {
-        let (what, axis) = match f {
-            Freedom::Rx => ("turn about", x),
-            Freedom::Ry => ("turn about", y),
-            Freedom::Rz => ("turn about", z),
-            Freedom::Tx => ("slide along", x),
-            Freedom::Ty => ("slide along", y),
-            Freedom::Tz => ("slide along", z),
-            Freedom::Screw => ("screw about", z),
+        let what = match f {
+            Freedom::Screw => "screw about",
+            f if f.is_slide() => "slide along",
+            _ => "turn about",
         };
-        format!("{what} {}", direction_name(axis))
+        format!("{what} {}", direction_name(axes[f.axis()]))
     };
     option.joint_type.freedoms().iter().map(word).collect()
 }
