@@ -296,11 +296,18 @@ impl SelfStressSpace {
         let mut vectors: Vec<AddedBy> = Vec::new();
         let mut choices: Vec<Vec<Vec<usize>>> = Vec::with_capacity(offered.len());
         for (t, of) in offered.enumerate() {
-            let first = vectors.len();
-            let left = of.vectors.into_iter().map(|v| (t, beside.left_of(v)));
-            vectors.extend(left);
-            let numbers = |all: &Vec<usize>| all.iter().map(|i| first + i).collect();
-            choices.push(of.choices.iter().map(numbers).collect());
+            let mut number = |v: Added| {
+                let left = beside.left_of(v);
+                // All choices have what leaves nothing.
+                let is_new = left.iter().any(|&x| x != 0);
+                is_new.then(|| {
+                    vectors.push((t, left));
+                    vectors.len() - 1
+                })
+            };
+            let numbers: Vec<Option<usize>> = of.vectors.into_iter().map(&mut number).collect();
+            let of_choice = |all: &Vec<usize>| all.iter().filter_map(|&i| numbers[i]).collect();
+            choices.push(of.choices.iter().map(of_choice).collect());
         }
         let self_stresses = beside.open.len() - links.rank();
         let contours = Reached::last_reached(&vectors, 0, links.clone());
