@@ -19,10 +19,10 @@ use std::collections::BTreeMap;
 /// A vector that a variable adds to the original joints, and its part in the relations of all that is added.
 type Pair = [Vec<Residue>; 2];
 
-/// The vectors that each variable of a block adds: in the rows of contours, and in these and the rows of kept links.
+/// The vectors that each variable of a block adds: in the rows of contours, and in these and the rows of kept links if there are any.
 pub(in crate::search) struct Widths {
     field: Field,
-    vectors: [BTreeMap<usize, Vec<Pair>>; 2],
+    vectors: Vec<BTreeMap<usize, Vec<Pair>>>,
 }
 
 /// The dimension that the variables so far and those to come have in common.
@@ -41,7 +41,7 @@ pub(in crate::search) struct Trial {
     /// The work so far, summed over the variables: 4 to the power of the open coordinates of contours, then the open coordinates of both
     /// kinds.
     pub(in crate::search) work: [u64; 2],
-    widths: [Width; 2],
+    widths: Vec<Width>,
 }
 
 impl Widths {
@@ -59,40 +59,43 @@ impl Widths {
         let all = [variables, later].concat();
         let of_rows = |rows_in_use: usize| added_vectors(field, space, rows, &all, rows_in_use);
         let closing = rows.count_closing();
+        let mut rows_in_use = vec![closing, closing + rows.count_kept()];
+        rows_in_use.dedup();
         Widths {
             field,
-            vectors: [closing, closing + rows.count_kept()].map(of_rows),
+            vectors: rows_in_use.into_iter().map(of_rows).collect(),
         }
     }
 
     /// Returns the order of no variable yet.
     pub(in crate::search) fn empty_trial(&self) -> Trial {
-        let width = || Width {
+        let width = |_| Width {
             spans: [Echelon::new(self.field), Echelon::new(self.field)],
             vectors: 0,
         };
         Trial {
             order: Vec::new(),
             work: [0; 2],
-            widths: [width(), width()],
+            widths: self.vectors.iter().map(width).collect(),
         }
     }
 
     /// Adds a variable to an order.
     pub(in crate::search) fn add_variable(&self, trial: &mut Trial, variable: usize) {
-        let mut open = [0; 2];
-        for (i, width) in trial.widths.iter_mut().enumerate() {
-            for pair in self.vectors[i].get(&variable).into_iter().flatten() {
+        for (width, vectors) in trial.widths.iter_mut().zip(&self.vectors) {
+            for pair in vectors.get(&variable).into_iter().flatten() {
                 for (span, vector) in width.spans.iter_mut().zip(pair) {
                     span.insert(vector);
                 }
                 width.vectors += 1;
             }
-            open[i] = width.spans[0].rank() + width.spans[1].rank() - width.vectors;
         }
-        let nodes = 1u64 << (2 * open[0].min(31));
+        let open = |w: &Width| w.spans[0].rank() + w.spans[1].rank() - w.vectors;
+        let [of_contours, all] =
+            [trial.widths.first(), trial.widths.last()].map(|w| w.map_or(0, open));
+        let nodes = 1u64 << (2 * of_contours.min(31));
         trial.work[0] = trial.work[0].saturating_add(nodes);
-        trial.work[1] += open[1] as u64;
+        trial.work[1] += all as u64;
         trial.order.push(variable);
     }
 }
