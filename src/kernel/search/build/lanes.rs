@@ -297,7 +297,7 @@ impl StateRows<'_> {
                 (Role::Friction(own), None) if own == joint => return None,
                 _ => plain,
             };
-            out.extend(span.iter().map(|t| rows.joint_column(field, joint, t)));
+            out.extend(rows.joint_columns(field, joint, span));
         }
         Some(out)
     }

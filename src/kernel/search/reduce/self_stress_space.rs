@@ -120,9 +120,8 @@ impl<'m> ClosingRows<'m> {
         choice: usize,
     ) -> Vec<Vec<Residue>> {
         let joints = variable.joints.iter().zip(&variable.choices[choice].spans);
-        joints
-            .flat_map(|(&j, span)| span.iter().map(move |t| self.joint_column(f, j, t)))
-            .collect()
+        let of_joint = |(&j, span): (&JointId, &Vec<Vec<Residue>>)| self.joint_columns(f, j, span);
+        joints.flat_map(of_joint).collect()
     }
 
     /// Returns the columns of a freedom along the motion times each power of t, as vectors over the field. The coordinates
@@ -133,10 +132,7 @@ impl<'m> ClosingRows<'m> {
         joint: JointId,
         series: &[Vec<Residue>],
     ) -> Vec<Vec<Residue>> {
-        let terms: Vec<Vec<Residue>> = series
-            .iter()
-            .map(|t| self.joint_column(f, joint, t))
-            .collect();
+        let terms = self.joint_columns(f, joint, series);
         let parts = terms.iter().map(|t| t.split_at(self.count_closing()));
         let (of_contours, of_kept): (Vec<_>, Vec<_>) = parts.unzip();
         let both = shifted_multiples(&of_contours)
@@ -145,24 +141,28 @@ impl<'m> ClosingRows<'m> {
         both.map(|(a, b)| [a, b].concat()).collect()
     }
 
-    /// Returns the column of a joint's twist, with its rates behind it.
-    pub(in crate::search) fn joint_column(
+    /// Returns the column of each of some twists of a joint, with its rates behind it.
+    pub(in crate::search) fn joint_columns(
         &self,
         f: Field,
         joint: JointId,
-        twist: &[Residue],
-    ) -> Vec<Residue> {
-        let mut out = vec![0; self.count_closing() + self.count_kept()];
-        for (at, part) in self.row_parts(joint) {
-            match part {
-                Part::Twist { forward } => {
-                    let d = self.dim;
-                    f.add_or_subtract(&mut out[at..at + d], &twist[..d], forward);
+        twists: &[Vec<Residue>],
+    ) -> Vec<Vec<Residue>> {
+        let parts = self.row_parts(joint);
+        let column = |twist: &Vec<Residue>| {
+            let mut out = vec![0; self.count_closing() + self.count_kept()];
+            for &(at, part) in &parts {
+                match part {
+                    Part::Twist { forward } => {
+                        let d = self.dim;
+                        f.add_or_subtract(&mut out[at..at + d], &twist[..d], forward);
+                    }
+                    Part::Rate(rate) => out[at] = f.add(out[at], twist[self.dim + rate]),
                 }
-                Part::Rate(rate) => out[at] = f.add(out[at], twist[self.dim + rate]),
             }
-        }
-        out
+            out
+        };
+        twists.iter().map(column).collect()
     }
 
     /// Returns the rows that the motion of a joint goes to, each with what goes there.
@@ -197,6 +197,7 @@ impl<'m> ClosingRows<'m> {
 }
 
 /// The part of a joint's motion that contributes to a row.
+#[derive(Clone, Copy)]
 pub(in crate::search) enum Part {
     /// The twist, to this row and those after it.
     Twist { forward: bool },
