@@ -30,11 +30,13 @@ pub(in crate::search) fn one_from_another(field: Field, spans: &[&[Vec<Residue>]
     let mut order: Vec<usize> = (0..spans.len()).collect();
     order.sort_by_key(|&c| spans[c].len());
     let mut out: Vec<Grown> = Vec::with_capacity(spans.len());
+    let wholes = spans.iter().map(|span| Echelon::from_vectors(field, *span));
+    let wholes: Vec<Echelon> = wholes.collect();
     for (i, &choice) in order.iter().enumerate() {
-        let whole = Echelon::from_vectors(field, spans[choice]);
+        let whole = &wholes[choice];
         let contained = |c: &&usize| spans[**c].iter().all(|t| whole.contains(t));
         let from = order[..i].iter().rev().find(contained).copied();
-        let mut known = Echelon::from_vectors(field, from.into_iter().flat_map(|c| spans[c]));
+        let mut known = from.map_or_else(|| Echelon::new(field), |from| wholes[from].clone());
         let new = spans[choice].iter().filter(|t| known.insert(t));
         out.push(Grown {
             choice,
