@@ -210,7 +210,8 @@ pub(crate) fn schema_alternatives(schema: &Value) -> Vec<&Map<String, Value>> {
         return Vec::new();
     };
     if let Some(place) = own.get("$ref").and_then(Value::as_str) {
-        let referred = SCHEMA.pointer(place.trim_start_matches('#'));
+        let name = place.strip_prefix("#/$defs/");
+        let referred = name.and_then(|name| SCHEMA.get("$defs")?.get(name));
         return referred.map(schema_alternatives).unwrap_or_default();
     }
     match own.get("anyOf").and_then(Value::as_array) {
