@@ -56,7 +56,7 @@ impl StepTaken {
 /// SI.
 ///
 /// # Guarantee
-/// For each step that of [`find_holding`](crate::grip::holding::find_holding); nothing is stated about times between two steps.
+/// For each step that of [`find_holding`]; nothing is stated about times between two steps.
 ///
 /// # Errors
 /// Returns a [`MotionError`].
