@@ -217,17 +217,21 @@ mod word {
 }
 
 mod words {
+    use serde::de::Error as _;
     use serde::{Deserialize, Deserializer, Serializer};
-
-    #[derive(Deserialize)]
-    struct Word(#[serde(with = "super::word")] u64);
 
     pub(super) fn serialize<S: Serializer>(x: &[u64], to: S) -> Result<S::Ok, S::Error> {
         to.collect_seq(x.iter().map(ToString::to_string))
     }
 
     pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<u64>, D::Error> {
-        let words = Vec::<Word>::deserialize(from)?;
-        Ok(words.into_iter().map(|w| w.0).collect())
+        let number = |text: &String| {
+            text.parse()
+                .map_err(|_| D::Error::custom(format!("`{text}` is not a whole number below 2^64")))
+        };
+        Vec::<String>::deserialize(from)?
+            .iter()
+            .map(number)
+            .collect()
     }
 }
