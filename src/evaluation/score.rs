@@ -10,16 +10,13 @@
 //!
 //! # Speed
 //!
-//! A variant moves as the original mechanism does, so the poses, the twists of every option, their powers on the
-//! A variant of the ten-link gripper then needs copies of some 24 rows of 24 + 7 numbers. One elimination follows, with
-//! seven right sides: the loads, and a unit force along each axis on each jaw. The last steps are 13 sums of wrenches and the two
-//! ends of a spectrum of 24 values.
+//! A variant moves as the original mechanism does. The poses, the twists of every option, their powers on the loads along the
+//! spanning tree, and their Gram matrices are therefore computed once. A variant of the ten-link gripper then needs copies of
+//! some 24 rows of 24 + 7 numbers. One elimination follows, with seven right sides: the loads, and a unit force along each axis
+//! on each jaw. The last steps are 13 sums of wrenches and the two ends of a spectrum of 24 values.
 //!
-//! `cargo bench --bench score` gives variants per second on one and two threads.
-//! `ozols search gripper-10-loaded --pool 400000 --check none --threads 1` takes 3.3 s of processor time (release build,
-//! three runs, other work on the machine). That is 8.4 µs per variant including listing and sorting, or 1.2e5 variants per
-//! second and core. By `perf record` on the bench, the [`spectrum`](evaluation::spectrum) takes two thirds of the time.
-//! Wrenches and elimination take a sixth each.
+//! `cargo bench --bench score` gives variants per second on one and two threads. In a profile of it, the
+//! [`spectrum`](evaluation::spectrum) takes two thirds of the time. Wrenches and elimination take a sixth each.
 //!
 //! # Proof
 //!

@@ -246,12 +246,14 @@ fn read_joint<'a>(
     let word = if tag.is_empty() {
         "free"
     } else {
-        look.of("type").attribute("type").unwrap_or("hinge")
+        look.find_element("type")
+            .attribute("type")
+            .unwrap_or("hinge")
     };
     let joint_type = joint_of_word(word, TYPES);
     let joint_type = joint_type.ok_or_else(|| e.unknown_word("type", word, TYPES))?;
     let id = joint_id(e, body, word, robot)?;
-    let pos = look.of("pos").read_vector("pos", [0.0; 3])?;
+    let pos = look.find_element("pos").read_vector("pos", [0.0; 3])?;
     let at = if word == "free" {
         RigidMotion::IDENTITY
     } else {
@@ -259,15 +261,15 @@ fn read_joint<'a>(
     };
     let mut part = Part::new(&id, links, [place.then(&at), at], joint_type).said_by(e);
     if matches!(word, "hinge" | "slide") {
-        let axis = read_axis(e, look.of("axis"))?;
+        let axis = read_axis(e, look.find_element("axis"))?;
         part.set_axis(inner.map_direction(axis));
         let unit = match word {
             "hinge" => context.compiler.angle,
             _ => 1.0,
         };
-        let zero = look.of("ref").read_numbers::<1>("ref")?;
+        let zero = look.find_element("ref").read_numbers::<1>("ref")?;
         part.zero = zero.map_or(0.0, |[x]| x * unit);
-        if let Some([low, high]) = look.of("range").read_numbers::<2>("range")? {
+        if let Some([low, high]) = look.find_element("range").read_numbers::<2>("range")? {
             part.limits = (low < high).then_some((low * unit - part.zero, high * unit - part.zero));
         }
     }

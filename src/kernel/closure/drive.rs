@@ -18,7 +18,7 @@ pub type Driven = (JointId, Freedom);
 
 /// Returns the freedoms that the drives of a state move, one for each driven joint that moves in the mechanism's space. That
 /// is [`Joint::driven_freedom`](crate::model::mechanism::Joint::driven_freedom). In a plane that excludes it, it is the first freedom of the
-/// joint that stays in the plane, unless the file names one. Drives that cannot move there are left out.
+/// joint that stays in the plane, unless the file names one. The list omits drives that cannot move there.
 ///
 /// # Examples
 /// ```

@@ -6,6 +6,7 @@
 
 use super::written::{PointPair, Written, distinct_pairs};
 use crate::geom::vector::{Vector, X, Y, Z, add_scaled, cross, dot, length, scale, unit};
+use itertools::Itertools;
 
 /// Maximum move of a direction's components, in halves of their last digit. Such a direction is fitted, not solved for.
 pub(crate) const WITHIN: f64 = 1.1;
@@ -80,10 +81,11 @@ pub(super) fn digits_allow<'a>(
     rays: &'a [Written],
     of_ray: &[(usize, f64)],
 ) -> impl Fn(usize, Vector) -> bool + use<'a> {
-    let of_ray = of_ray.to_vec();
+    let of_direction = of_ray.iter().map(|(k, _)| *k).zip(rays);
+    let of_direction = of_direction.into_group_map();
     move |k, v| {
-        let mut of_it = rays.iter().zip(&of_ray).filter(|r| r.1.0 == k);
-        of_it.all(|r| r.0.move_to(v, 0.0) <= WITHIN)
+        let mut own = of_direction.get(&k).into_iter().flatten();
+        own.all(|ray| ray.move_to(v, 0.0) <= WITHIN)
     }
 }
 
@@ -269,8 +271,7 @@ impl Evidence {
     }
 }
 
-/// Turns a direction to the allowed one within its error that most pairs of points agree with, or to one of the file's
-/// own axes if none is better.
+/// Turns a direction, within its error, to the allowed one that most pairs of points support. An axis of the file wins a tie.
 ///
 /// # Complexity
 /// O(p²) hypotheses of at most 48² pairs, each compared with O(p²) pairs of p points.

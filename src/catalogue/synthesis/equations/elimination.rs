@@ -1,7 +1,8 @@
 //! Small systems of equations solved in place, without a new matrix for each.
 
-/// Number of entries that are processed at once, and of right sides.
+/// Number of entries of a row that are processed at once.
 const LANES: usize = 4;
+/// Number of right sides that are solved at once.
 const PAIR: usize = 2;
 
 /// A square matrix with right sides.

@@ -61,8 +61,8 @@ pub fn ease_request(request: &Request, how: Relaxation) -> Request {
 }
 
 impl Outcome {
-    /// Returns the remarks on the variants, as far as there was time until `cancelled` said to end. If some variants keep the
-    /// motion in the drawn pose only, the remarks count these.
+    /// Returns the remarks on the variants. If all that were found keep the motion in the drawn pose only, one remark gives
+    /// their number. If `cancelled` returns true, the searches for remarks end early.
     ///
     /// # Errors
     /// Returns an error if the geometry has no exact image.

@@ -129,7 +129,7 @@ impl Outcome {
         unranked.edit().ranking = None;
         let prepared = trial.prepare(unranked, &mut |_| {}).ok()?;
         let (mut conditions, rounded) = trial.search_conditions(&prepared, &mut |_| {}).ok()?;
-        // How many there are is not asked.
+        // Nobody reads how many variants there are.
         conditions.estimate = None;
         let mechanism = Arc::new(prepared.mechanism);
         let never = &|| false;

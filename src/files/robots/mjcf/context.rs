@@ -176,8 +176,8 @@ impl<'a> Defaults<'a> {
 }
 
 impl<'a> Lookup<'a> {
-    /// Returns the element that gives an attribute; the first if none does.
-    pub(crate) fn of(&self, name: &str) -> Element<'a> {
+    /// Returns the element that gives an attribute. If none does, returns the first.
+    pub(crate) fn find_element(&self, name: &str) -> Element<'a> {
         let given = self.places.iter().find(|e| e.attribute(name).is_some());
         *given.unwrap_or(&self.places[0])
     }

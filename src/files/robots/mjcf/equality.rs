@@ -17,7 +17,7 @@ pub(crate) fn read_equalities(
             Some(n) => n.to_owned(),
             None => format!("{}-{}", e.name(), i + 1),
         };
-        if look.of("active").attribute("active") == Some("false") {
+        if look.find_element("active").attribute("active") == Some("false") {
             robot.report.drop_element("inactive equality", &id);
             continue;
         }
@@ -29,11 +29,17 @@ pub(crate) fn read_equalities(
             "weld" => {
                 let ends = read_ends(e, context, robot)?;
                 let (mut ends, mut kind) = (ends, JointType::Fixed);
-                if look.of("torquescale").read_numbers("torquescale")? == Some([0.0]) {
+                if look
+                    .find_element("torquescale")
+                    .read_numbers("torquescale")?
+                    == Some([0.0])
+                {
                     kind = JointType::Spherical;
                     if e.attribute("site1").is_none() {
                         // Without torque it is a ball at its anchor, which is given in the second body.
-                        let at = look.of("anchor").read_vector("anchor", [0.0; 3])?;
+                        let at = look
+                            .find_element("anchor")
+                            .read_vector("anchor", [0.0; 3])?;
                         let at = RigidMotion::from_translation(at);
                         let [(one, first), (two, second)] = ends;
                         ends = [(one, first.then(&second.inverse()).then(&at)), (two, at)];

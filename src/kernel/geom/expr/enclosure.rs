@@ -249,7 +249,7 @@ mod tests {
     use super::Enclosure;
     use num_bigint::BigInt;
 
-    /// A longer number of the same value is rounded bit by bit.
+    /// A longer number of the same value is rounded as a fraction.
     #[test]
     fn short_and_long_numbers_have_the_same_double() {
         let odd = [1_i64 << 53, 1 << 54, 1 << 60, i64::MAX - 2000];

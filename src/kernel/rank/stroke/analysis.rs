@@ -7,7 +7,7 @@
 
 use crate::closure::tree::path_from_frame;
 use crate::model::mechanism::{LinkId, Mechanism, Mode, Role, StateId};
-use crate::motion::follow::{Follower, Stop, Why, stroke_positions};
+use crate::motion::follow::{Follower, Stop, Why, column_unit, stroke_positions};
 use crate::motion::pose::{FLAT, Pose};
 use crate::rank::numeric::scaling::{NumericRank, rank_of_values};
 use ozols_dense::{Matrix, singular_values};
@@ -122,7 +122,6 @@ struct PoseValues {
 impl<'a> Looker<'a> {
     fn new(request: &'a StrokeRequest<'a>) -> Looker<'a> {
         let (m, pose) = (request.mechanism, &request.pose);
-        let slides = pose.columns[request.drive].freedom.is_slide();
         let middle = |l: LinkId| {
             let of = m.joints_at(l, request.state);
             let points: Vec<[f64; 3]> = of
@@ -140,7 +139,7 @@ impl<'a> Looker<'a> {
                 Mode::Spatial => 6,
                 Mode::Planar { .. } => 3,
             },
-            unit: if slides { pose.length } else { 1.0 },
+            unit: column_unit(pose, request.drive),
             outputs: m
                 .links_in(request.state)
                 .filter(|&l| m.links[l].role == Role::Output)
