@@ -29,7 +29,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-/// Most requests with the token at a time: the windows' own, and some more.
+/// Maximum number of requests with the token at a time. The open windows need fewer.
 const CONNECTIONS: usize = 64;
 /// The interval between checks of the file and the windows.
 const TICK: Duration = Duration::from_millis(100);
@@ -147,11 +147,11 @@ fn accept_requests(listener: &TcpListener, door: &Arc<Door>, room: &Arc<Room>) {
     }
 }
 
-/// A request with the token that is being answered.
+/// A request with the token while it is answered, counted among all of them.
 struct Busy<'a>(&'a AtomicUsize);
 
 impl Busy<'_> {
-    /// Returns one more of them, or `None` if there are too many.
+    /// Counts a request. Returns `None` if there are too many.
     fn new(all: &AtomicUsize) -> Option<Busy<'_>> {
         let one = Busy(all);
         (all.fetch_add(1, Ordering::SeqCst) < CONNECTIONS).then_some(one)
@@ -164,7 +164,7 @@ impl Drop for Busy<'_> {
     }
 }
 
-/// Handles a request. It waits at `place` until it has shown the token, and is one of the `busy` ones after that.
+/// Handles a request. Until it has shown the token it waits at `place`. After that `busy` counts it.
 fn answer_stream(
     stream: &mut TcpStream,
     door: &Door,

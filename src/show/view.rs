@@ -94,7 +94,7 @@ pub(crate) fn join_objects<const N: usize>(parts: [Value; N]) -> Value {
     entries.flatten().collect()
 }
 
-/// Returns the values of each key, the keys in the order of their firsts.
+/// Returns the values of each key. The keys are in the order in which they first occur.
 pub fn group_by_key<K: PartialEq, V>(pairs: impl IntoIterator<Item = (K, V)>) -> Vec<(K, Vec<V>)> {
     let mut out: Vec<(K, Vec<V>)> = Vec::new();
     for (key, value) in pairs {

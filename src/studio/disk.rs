@@ -183,7 +183,7 @@ fn write_whole(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> 
     })
 }
 
-/// Begins a temporary file in a folder. It may be read by whom the umask lets, because it becomes a result.
+/// Begins a temporary file in a folder. Its permissions follow the umask, because it becomes a result.
 pub(crate) fn begin_file(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".tmp-ozols-");

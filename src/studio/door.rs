@@ -1,4 +1,4 @@
-//! Who may come in: this machine's own page, by the address with the token, and no page of anybody else's; and who waits there.
+//! Admission of requests: only the page of this machine that has the address with the token. Connections wait until they have shown it.
 
 use super::http::{Asked, Reply};
 use std::collections::VecDeque;
@@ -72,11 +72,11 @@ fn same_text(a: &str, b: &str) -> bool {
     a.len() == b.len() && differ == 0
 }
 
-/// Most connections that wait at a time. The head of a request of the page itself is here at once.
+/// Maximum number of connections that wait at a time. The page itself sends the head of a request at once.
 const MOST_WAITING: usize = 64;
 
-/// Connections that have not shown the token yet, the one that came first at the front. They take no place of those that have: where too
-/// many wait, the one that has waited longest is closed.
+/// Connections that have not shown the token yet, the oldest first. They are not counted as requests with the token. If too many wait,
+/// the oldest is closed.
 #[derive(Debug, Default)]
 pub(super) struct Waiting {
     list: Mutex<(u64, VecDeque<(u64, TcpStream)>)>,

@@ -46,7 +46,7 @@ pub(super) struct Reply {
     pub(super) body: Vec<u8>,
     /// The name under which a browser saves it, where it is to.
     pub(super) saved_as: Option<String>,
-    /// Whether the body is packed.
+    /// Whether the body is compressed.
     pub(super) packed: bool,
 }
 
@@ -64,7 +64,7 @@ impl Reply {
         }
     }
 
-    /// Returns the reply, compressed if the client accepts it and it saves enough.
+    /// Returns the reply, compressed if the client accepts that and the body is not [`SHORT`].
     pub(super) fn packed_for(mut self, asked: &Asked) -> io::Result<Reply> {
         let can = asked.header_once("accept-encoding");
         if self.body.len() > SHORT && can.is_some_and(|c| c.contains("gzip")) {

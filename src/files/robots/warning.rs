@@ -178,7 +178,7 @@ pub(crate) fn unknown_word(element: &str, what: &str, word: &str, known: &str) -
     ))
 }
 
-/// Returns the problem that an element names something unknown: one of `many`, at most 20 of which are listed.
+/// Returns the problem that an element names an unknown thing, with at most 20 of the known names. `one` and `many` are its noun.
 pub(crate) fn unknown_name(
     element: &str,
     [one, many]: [&str; 2],

@@ -56,7 +56,7 @@ impl StepTaken {
 /// SI.
 ///
 /// # Guarantee
-/// For each step that of [`find_holding`]; nothing is stated about times between two steps.
+/// Each step has the guarantee of [`find_holding`]. Times between two steps are not examined.
 ///
 /// # Errors
 /// Returns a [`MotionError`].

@@ -256,7 +256,7 @@ impl Subject<'_> {
     }
 }
 
-/// Returns the places of a link's joints among some.
+/// Returns the positions of a link's joints in a list of joints.
 pub(crate) fn joints_of_link(m: &Mechanism, joints: &[JointId], link: LinkId) -> Vec<usize> {
     let has = |j: &JointId| m.joints[*j].links.contains(&link);
     joints.iter().positions(has).collect()

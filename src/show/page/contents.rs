@@ -50,7 +50,7 @@ pub struct Redesigns<'a> {
 /// How to get what a page shows from the command line: commands quoted for a shell.
 #[derive(Debug, Clone)]
 pub struct Commands {
-    /// The commands themselves.
+    /// The commands that are about the mechanism.
     pub rows: Vec<NextCommand>,
     /// The same about one variant, with `{}` for its number; empty if there is no such command.
     pub variant: Vec<(String, String)>,

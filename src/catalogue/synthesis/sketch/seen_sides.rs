@@ -13,8 +13,9 @@ pub(crate) const ON: f64 = 6.0;
 /// Smallest distance of a pin from the opposite side of the same link, in mm. Below it the link is a splinter.
 const SPLINTER: f64 = 10.0;
 
-/// Maximum number of sides, and the number of them that are processed at once.
+/// Maximum number of sides.
 const MOST_SIDES: usize = 64;
+/// Number of sides that are processed at once.
 const LANES: usize = 8;
 
 /// The cost of a pin within a plate that it does not belong to.
@@ -102,7 +103,7 @@ impl SideSeen {
         }
     }
 
-    /// Evaluates the points that have moved: all of them if an end has.
+    /// Evaluates the points that have moved, or all points if an end of the side has moved.
     fn look_again(&mut self, bones: &Bones, at: &[Point], moved: u32) {
         let [a, b] = self.side.places(at);
         let along = sub(b, a);
@@ -347,7 +348,7 @@ mod tests {
         });
     }
 
-    /// Each pair of sides of different links without a common end, by the places of their ends.
+    /// The slow twin tests each pair of sides by the places of their ends.
     #[test]
     fn sides_cross_as_their_ends_say() {
         each_classic(|name, sketch| {
@@ -367,7 +368,7 @@ mod tests {
         });
     }
 
-    /// By the distance from each side, however far the line through its ends is.
+    /// The slow twin computes the distance from each side.
     #[test]
     fn a_link_lies_over_points_that_are_near() {
         let mut random = random_for("bar", 5, 0);

@@ -195,7 +195,7 @@ impl Bonds<'_> {
         true
     }
 
-    /// Replaces two chains between the same links by one with the given parts, the first two for which there are any.
+    /// Replaces the first two chains between the same links for which `merged` returns parts by one chain with these parts.
     fn merge_parallel(
         &mut self,
         merged: impl Fn(&Self, &Chain, &Chain) -> Option<Vec<BondPart>>,

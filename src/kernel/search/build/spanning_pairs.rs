@@ -109,7 +109,7 @@ impl Bases {
         }
     }
 
-    /// Returns the nodes that complete a node of the front, on which these forms are zero. `memory` may be that of another walk.
+    /// Returns the nodes that complete a node of the front, on which these forms are zero. `memory` may come from an earlier walk.
     ///
     /// # Complexity
     /// O(e·w) field operations for e different beginnings of bases and w coordinates. O(e·w²) if most rows are not the last ones.
@@ -194,7 +194,7 @@ impl ZeroForms {
     }
 }
 
-/// Memory of one walk after another.
+/// Memory that one walk leaves to the next.
 #[derive(Default)]
 pub(super) struct WalkMemory {
     images: Vec<Residue>,

@@ -19,7 +19,7 @@ use thiserror::Error;
 pub struct PrimeCheck {
     /// Both primes.
     pub primes: [u64; 2],
-    /// Whether they agree. False only if the search was interrupted: where depends on the clock, so nothing was compared.
+    /// Whether they agree. False only if the search was interrupted: then nothing was compared, because the clock decides where it ends.
     pub agree: bool,
 }
 
