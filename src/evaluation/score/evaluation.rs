@@ -10,5 +10,6 @@ mod load_limits;
 pub mod lower_bound;
 pub(crate) mod pose_tables;
 mod reference_scores;
+mod solution_space;
 pub mod spectrum;
 pub mod terms;

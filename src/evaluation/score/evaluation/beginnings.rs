@@ -10,15 +10,15 @@ use crate::model::ranking::{ClearanceSum, Ranking};
 use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::load_limits::LoadLimits;
-use crate::score::evaluation::lower_bound::{common_rows, is_in_span};
+use crate::score::evaluation::lower_bound::{
+    Common, affine_load, common_equations, common_rows, is_in_span,
+};
 use crate::score::evaluation::pose_tables::{PlacedJoint, PoseTable};
+use crate::score::evaluation::solution_space::SolutionSpace;
 use crate::score::evaluation::terms::{ErrorSum, Floor};
 use crate::search::answer::k_best::Assignment;
-use crate::statics::reactions::geometry::Six;
 
-/// Pivots below this are none: rows are unit twists.
-const PIVOT: f64 = 1e-9;
-/// Reactions count as unknown if a pivot is below this, because rounding must not end a branch.
+/// Reactions count as unknown if an equation is nearer to those before it than this, because rounding must not end a branch.
 const SURE: f64 = 1e-5;
 /// Loads have no equilibrium if their work on undriven motions is above this fraction of them. The limit for whole variants is far
 /// lower, and decides the cases in between.
@@ -29,25 +29,23 @@ const WORK: f64 = 1e-6;
 struct LoadedPlace {
     variable: usize,
     slot: usize,
-    /// First unknown of each contour through it, with its direction.
-    contours: Vec<(usize, f64)>,
     /// Force and moment in each load case where the unknowns are 0.
     fixed: Vec<[f64; 6]>,
-    /// The contribution of each unknown of a contour.
-    across: Vec<[f64; 6]>,
+    /// The contribution of each unknown.
+    open: Vec<[f64; 6]>,
 }
 
-/// A pose as branches of variants need it: nothing in it depends on a choice that is made.
+/// A pose as branches of variants need it: nothing in it depends on a choice that is made. The unknowns are what the equations of all
+/// variants leave open.
 #[derive(Debug)]
 pub(in crate::score) struct Beginnings {
     unknowns: usize,
     sides: usize,
-    width: usize,
+    /// Whether the equations of all variants are far enough from dependent ones that their rank is sure.
+    sure: bool,
     /// Greatest work of the loads that is rounding.
     work: f64,
     clearance: ClearanceSum,
-    /// Equations of all variants.
-    common: Vec<Vec<f64>>,
     /// By variable and choice, the equations of further freedoms.
     further: Vec<Vec<Vec<Vec<f64>>>>,
     places: Vec<LoadedPlace>,
@@ -90,16 +88,14 @@ impl Beginnings {
         if table.couplings > 0 {
             return None;
         }
-        let unknowns = table.count_unknowns();
-        let width = unknowns + table.cases;
+        let common = common_equations(table)?;
         let choices = table.cells.iter().map(|c| vec![Vec::new(); c.len()]);
         let mut out = Beginnings {
-            unknowns,
+            unknowns: common.open.len(),
             sides: table.cases,
-            width,
+            sure: common.least > SURE,
             work: WORK * table.scale,
             clearance,
-            common: Vec::new(),
             further: choices.collect(),
             places: Vec::new(),
             of_variable: vec![Vec::new(); table.cells.len()],
@@ -107,7 +103,7 @@ impl Beginnings {
             least: Vec::new(),
         };
         for place in &table.places {
-            out.add_place(table, place);
+            out.add_place(table, &common, place);
         }
         for cells in &table.cells {
             let of_choice = cells.iter().map(|c| c.iter().map(LoadLimits::of).collect());
@@ -122,69 +118,63 @@ impl Beginnings {
         Some(out)
     }
 
-    /// Adds a joint's place: the equations that all choices have there, and those of each choice's further freedoms.
-    fn add_place(&mut self, table: &PoseTable, place: &PlacedJoint) {
+    /// Adds a joint's place, with the equations of each choice's further freedoms.
+    fn add_place(&mut self, table: &PoseTable, common: &Common, place: &PlacedJoint) {
         let (dim, cells) = (table.basis.len(), &table.cells[place.variable]);
-        let whole = |row: &[f64]| table.whole_row(place, row);
-        let common: Vec<Vec<f64>> = common_rows(table, place).into_iter().cloned().collect();
-        self.common.extend(common.iter().map(|row| whole(row)));
+        let kept: Vec<Vec<f64>> = common_rows(table, place).into_iter().cloned().collect();
         for (cell, further) in cells.iter().zip(&mut self.further[place.variable]) {
-            let mut known = common.clone();
+            let mut known = kept.clone();
             for row in &cell[place.slot].rows {
                 if !is_in_span(row, &known, dim) {
-                    further.push(whole(row));
+                    further.push(common.restrict_equation(&table.whole_row(place, row)));
                     known.push(row.clone());
                 }
             }
         }
-        let pair = |w: &Six| {
-            let (f, m) = table.borne_at(place, w);
-            [f[0], f[1], f[2], m[0], m[1], m[2]]
-        };
+        let loads = (0..table.cases).map(|case| {
+            affine_load(common, case, &|x| {
+                let wrench = table.wrench_at(place, case, x, &[]);
+                let ([fx, fy, fz], [mx, my, mz]) = table.borne_at(place, &wrench);
+                [fx, fy, fz, mx, my, mz]
+            })
+        });
+        let (fixed, open): (Vec<_>, Vec<_>) = loads.unzip();
         self.of_variable[place.variable].push(self.places.len());
         self.places.push(LoadedPlace {
             variable: place.variable,
             slot: place.slot,
-            contours: place.contours.iter().map(|&(k, s)| (k * dim, s)).collect(),
-            fixed: place.along_tree.iter().map(pair).collect(),
-            across: table.basis.iter().map(pair).collect(),
+            fixed,
+            // They are the same in every load case.
+            open: open.into_iter().next().unwrap_or_default(),
         });
     }
 
     /// Returns the beginning without choices.
     pub(in crate::score) fn begin_empty(&self) -> Begun<'_> {
-        let mut out = Begun {
+        Begun {
             of: self,
-            rows: Vec::new(),
-            pivots: Vec::new(),
-            weakest: Vec::new(),
+            solutions: vec![SolutionSpace::unrestricted(self.unknowns, self.sides)],
+            depth: 0,
             chosen: self.least.clone(),
             known: false,
             order: (0..self.places.len()).collect(),
             errors: false,
-            solution: vec![0.0; self.unknowns * self.sides],
             forces: vec![0.0; self.places.len()],
             moments: vec![0.0; self.places.len()],
             passed: vec![0.0; self.places.len() * (self.sides - 1)],
-            row: Vec::new(),
-        };
-        for row in &self.common {
-            out.insert_equation(row);
+            scratch: [Vec::new(), Vec::new()],
         }
-        out
     }
 }
 
-/// The equations of a beginning, reduced, and the reactions where they determine them. Choices are taken and given back, the last
-/// first.
+/// The reactions that the equations of a beginning leave possible. Choices are taken and given back, the last first.
 #[derive(Debug, Clone)]
 pub(in crate::score) struct Begun<'b> {
     of: &'b Beginnings,
-    /// Reduced equations: each is 0 where those before it have their pivots.
-    rows: Vec<f64>,
-    pivots: Vec<usize>,
-    /// The least pivot up to each equation.
-    weakest: Vec<f64>,
+    /// The solutions without choices, and then those with each choice that adds equations.
+    solutions: Vec<SolutionSpace>,
+    /// The number of the present solutions. Those behind are memory for further ones.
+    depth: usize,
     /// By variable and slot: the choice's own, or the least of all.
     chosen: Vec<Vec<LoadLimits>>,
     /// Whether the reactions are known.
@@ -193,22 +183,20 @@ pub(in crate::score) struct Begun<'b> {
     order: Vec<usize>,
     /// Whether what unit forces on the outputs pass is known, too.
     errors: bool,
-    /// Unknowns × load cases.
-    solution: Vec<f64>,
     /// Under the loads, by place.
     forces: Vec<f64>,
     moments: Vec<f64>,
     /// Forces under a unit force on an output along an axis, by output and axis, and then by place.
     passed: Vec<f64>,
-    row: Vec<f64>,
+    scratch: [Vec<f64>; 2],
 }
 
 /// A choice that was taken and is to be given back.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::score) struct TakenChoice {
     variable: usize,
-    /// Equations before it.
-    rows: usize,
+    /// Whether it added equations.
+    adds: bool,
     /// Whether the reactions are known by it.
     tells: bool,
 }
@@ -218,112 +206,64 @@ impl Begun<'_> {
     /// case.
     ///
     /// # Complexity
-    /// O(unknowns · width) for each further freedom, once on the way O(unknowns²), and O(unknowns) for each from there on. If the
-    /// reactions become known by it, call [`Begun::peaks`] before the next choice.
+    /// O(unknowns · width) for each further freedom as long as reactions are not known, and then O(unknowns). If the reactions become
+    /// known by it, call [`Begun::peak_bounds`] before the next choice.
     pub(in crate::score) fn take_choice(
         &mut self,
         variable: usize,
         choice: usize,
     ) -> (TakenChoice, bool) {
         let of = self.of;
+        let further = &of.further[variable][choice];
         let mut taken = TakenChoice {
             variable,
-            rows: self.pivots.len(),
+            adds: !self.known && !further.is_empty(),
             tells: false,
         };
         self.chosen[variable].copy_from_slice(&of.limits[variable][choice]);
-        let further = &of.further[variable][choice];
-        if self.known {
-            return (taken, further.iter().all(|row| self.is_in_equilibrium(row)));
+        if taken.adds {
+            self.depth += 1;
+            if self.solutions.len() == self.depth {
+                self.solutions.push(SolutionSpace::default());
+            }
+            let (before, next) = self.solutions.split_at_mut(self.depth);
+            next[0].copy_from(&before[self.depth - 1]);
         }
-        let held = further.iter().all(|row| self.insert_equation(row));
-        if held && self.is_determined() {
+        let held = further.iter().all(|row| self.is_held(row));
+        if held && !self.known && self.is_determined() {
             (self.known, taken.tells) = (true, true);
             self.errors = false;
-            self.solve_cases(0..1);
         }
         (taken, held)
     }
 
     /// Removes the last choice.
     pub(in crate::score) fn give_back(&mut self, taken: TakenChoice) {
-        self.pivots.truncate(taken.rows);
-        self.weakest.truncate(taken.rows);
-        self.rows.truncate(taken.rows * self.of.width);
+        self.depth -= usize::from(taken.adds);
         self.chosen[taken.variable].copy_from_slice(&self.of.least[taken.variable]);
         if taken.tells {
             self.known = false;
         }
     }
 
-    /// Returns true if the known reactions and the loads are in equilibrium on a motion: together they do no work.
-    fn is_in_equilibrium(&self, row: &[f64]) -> bool {
-        let unknowns = self.of.unknowns;
-        let known = self.solution.iter().step_by(self.of.sides);
-        let work: f64 = row.iter().zip(known).map(|(r, x)| r * x).sum();
-        (row[unknowns] - work).abs() <= self.of.work
+    /// Adds an equation, unless the reactions are known. Returns false if loads do work on a motion that nothing drives.
+    fn is_held(&mut self, row: &[f64]) -> bool {
+        let solutions = &mut self.solutions[self.depth];
+        let adds = !self.known && solutions.add_equation(row, &mut self.scratch);
+        adds || solutions.first_gap(row).abs() <= self.of.work
     }
 
     fn is_determined(&self) -> bool {
-        self.pivots.len() == self.of.unknowns && self.weakest.last().is_none_or(|w| *w > SURE)
-    }
-
-    /// Adds an equation, reduced by those before it. Returns false if loads do work on a motion that nothing drives.
-    fn insert_equation(&mut self, row: &[f64]) -> bool {
-        let (width, unknowns) = (self.of.width, self.of.unknowns);
-        self.row.clear();
-        self.row.extend_from_slice(row);
-        for (own, &p) in self.rows.chunks_exact(width).zip(&self.pivots) {
-            let factor = self.row[p];
-            if factor != 0.0 {
-                for (x, o) in self.row.iter_mut().zip(own) {
-                    *x -= factor * o;
-                }
-                self.row[p] = 0.0;
-            }
-        }
-        let mut best = (0, 0.0);
-        for (c, x) in self.row[..unknowns].iter().enumerate() {
-            if x.abs() > best.1 {
-                best = (c, x.abs());
-            }
-        }
-        if best.1 < PIVOT {
-            return self.row[unknowns..]
-                .first()
-                .is_none_or(|x| x.abs() <= self.of.work);
-        }
-        let inverse = 1.0 / self.row[best.0];
-        self.rows.extend(self.row.iter().map(|x| x * inverse));
-        let weakest = self.weakest.last().copied().unwrap_or(1.0);
-        self.weakest.push(best.1.min(weakest));
-        self.pivots.push(best.0);
-        true
-    }
-
-    /// Computes the unknowns in some load cases.
-    fn solve_cases(&mut self, cases: std::ops::Range<usize>) {
-        let (width, unknowns, sides) = (self.of.width, self.of.unknowns, self.of.sides);
-        for at in (0..unknowns).rev() {
-            let row = &self.rows[at * width..(at + 1) * width];
-            for case in cases.clone() {
-                let mut x = row[unknowns + case];
-                for &later in &self.pivots[at + 1..] {
-                    x -= row[later] * self.solution[later * sides + case];
-                }
-                self.solution[self.pivots[at] * sides + case] = x;
-            }
-        }
+        let solutions = &self.solutions[self.depth];
+        solutions.is_determined() && self.of.sure && solutions.weakest > SURE
     }
 
     /// Returns the force and moment at a place in a load case.
     fn load_at(&self, place: &LoadedPlace, case: usize) -> [f64; 6] {
         let mut out = place.fixed[case];
-        for (i, across) in place.across.iter().enumerate() {
-            let at =
-                |&(k, sign): &(usize, f64)| sign * self.solution[(k + i) * self.of.sides + case];
-            let x: f64 = place.contours.iter().map(at).sum();
-            for (o, a) in out.iter_mut().zip(across) {
+        let values = self.solutions[self.depth].values(case);
+        for (x, open) in values.iter().zip(&place.open) {
+            for (o, a) in out.iter_mut().zip(open) {
                 *o += x * a;
             }
         }
@@ -391,7 +331,6 @@ impl Begun<'_> {
     /// Returns a bound on the error of the outputs `[m]`, if the reactions are known.
     pub(in crate::score) fn output_error(&mut self) -> f64 {
         if !self.errors {
-            self.solve_cases(1..self.of.sides);
             self.update_passed();
             self.errors = true;
         }

@@ -31,11 +31,28 @@ struct AffineLoads {
 }
 
 /// The solutions of the common equations for the contours' wrenches.
-struct Common {
+pub(super) struct Common {
     /// A solution, unknowns × cases.
     solution: Vec<f64>,
-    /// Directions they leave open, each over the unknowns.
-    open: Vec<Vec<f64>>,
+    cases: usize,
+    /// Orthonormal directions they leave open, each over the unknowns.
+    pub(super) open: Vec<Vec<f64>>,
+    /// The least singular value of the equations, and at most 1.
+    pub(super) least: f64,
+}
+
+impl Common {
+    /// Returns an equation over the open directions, and then its right sides.
+    pub(super) fn restrict_equation(&self, equation: &[f64]) -> Vec<f64> {
+        let (row, right) = equation.split_at(equation.len() - self.cases);
+        let product = |direction: &Vec<f64>| row.iter().zip(direction).map(|(a, d)| a * d).sum();
+        let gap = |(case, b): (usize, &f64)| {
+            let values = self.solution.iter().skip(case).step_by(self.cases);
+            b - row.iter().zip(values).map(|(a, x)| a * x).sum::<f64>()
+        };
+        let open = self.open.iter().map(product);
+        open.chain(right.iter().enumerate().map(gap)).collect()
+    }
 }
 
 impl Evaluator<'_> {
@@ -69,7 +86,8 @@ impl Evaluator<'_> {
                             table.borne_at(p, &table.wrench_at(p, case, x, &mesh));
                         if moment { turning } else { force }
                     };
-                    Some(affine_load(table, &common, case, limit, &borne))
+                    let (fixed, open) = affine_load(&common, case, &borne);
+                    Some(AffineLoads { limit, fixed, open })
                 };
                 places.filter_map(one).collect::<Vec<AffineLoads>>()
             };
@@ -157,16 +175,13 @@ pub(in crate::score) fn common_rows<'t>(
 }
 
 /// Returns the solutions of the equations that hold for every variant.
-fn common_equations(table: &PoseTable) -> Option<Common> {
+pub(super) fn common_equations(table: &PoseTable) -> Option<Common> {
     let unknowns = table.count_unknowns();
     let of_place = |place| {
         let own = common_rows(table, place).into_iter();
         own.map(move |row| table.whole_row(place, row))
     };
     let rows: Vec<Vec<f64>> = table.places.iter().flat_map(of_place).collect();
-    if rows.is_empty() || unknowns == 0 {
-        return None;
-    }
     let matrix = Matrix::from_fn(rows.len(), unknowns, |r, c| rows[r][c]);
     let right = Matrix::from_fn(rows.len(), table.cases, |r, c| rows[r][unknowns + c]);
     let svd = svd(&matrix)?;
@@ -177,7 +192,12 @@ fn common_equations(table: &PoseTable) -> Option<Common> {
         .map(|(u, c)| x[(u, c)])
         .collect();
     let open = (rank..unknowns).map(|j| svd.v.col(j).to_vec()).collect();
-    Some(Common { solution, open })
+    Some(Common {
+        solution,
+        cases: table.cases,
+        open,
+        least: svd.values[..rank].iter().copied().fold(1.0, f64::min),
+    })
 }
 
 /// Returns whether a unit twist, with its entries in couplings up to the given width, is in the span of others. Its right sides are then
@@ -191,25 +211,25 @@ pub(in crate::score) fn is_in_span(row: &[f64], others: &[Vec<f64>], width: usiz
     norm(&difference(&row[..width], basis.times(&along).col(0))) <= NONE
 }
 
-/// Returns the load of a place in one load case, as a function of the coordinates that the common equations leave open.
-fn affine_load(
-    table: &PoseTable,
+/// Returns the load of a place in one load case where the coordinates that the common equations leave open are 0, and the contribution of
+/// each of these coordinates.
+pub(super) fn affine_load<const N: usize>(
     common: &Common,
     case: usize,
-    limit: f64,
-    borne: &dyn Fn(&[f64]) -> [f64; 3],
-) -> AffineLoads {
+    borne: &dyn Fn(&[f64]) -> [f64; N],
+) -> ([f64; N], Vec<[f64; N]>) {
     let fixed = borne(&common.solution);
     let mut x = common.solution.clone();
     let open = common.open.iter().map(|direction| {
         for (u, d) in direction.iter().enumerate() {
-            x[u * table.cases + case] = common.solution[u * table.cases + case] + d;
+            let at = u * common.cases + case;
+            x[at] = common.solution[at] + d;
         }
         let there = borne(&x);
-        [0, 1, 2].map(|i| there[i] - fixed[i])
+        std::array::from_fn(|i| there[i] - fixed[i])
     });
     let open = open.collect();
-    AffineLoads { limit, fixed, open }
+    (fixed, open)
 }
 
 /// Returns the vectors at which Σ weight · |vector|² is least.

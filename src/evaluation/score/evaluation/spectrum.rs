@@ -88,7 +88,7 @@ impl Spectrum {
 }
 
 /// Returns the dot product. Computes four sums in parallel, so that they do not wait for each other.
-fn dot_product(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn dot_product(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     let (mut left, mut right) = (a.chunks_exact(4), b.chunks_exact(4));
     for (x, y) in left.by_ref().zip(right.by_ref()) {
@@ -101,7 +101,7 @@ fn dot_product(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Computes `out += factor · row`.
-fn add_scaled(out: &mut [f64], factor: f64, row: &[f64]) {
+pub(super) fn add_scaled(out: &mut [f64], factor: f64, row: &[f64]) {
     for (o, x) in out.iter_mut().zip(row) {
         *o += factor * x;
     }

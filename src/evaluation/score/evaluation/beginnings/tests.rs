@@ -2,33 +2,33 @@
 
 use super::*;
 
-/// Creates a reaction x of one place under one load. If `known`, 2 x = 6 holds for all variants. The first choice of the
+/// Creates a reaction x of one place under one load. If `known`, x = 3 holds for all variants. The first choice of the
 /// single variable adds the equation `further`, and its second choice adds nothing.
-fn of_one_unknown(known: bool, further: [f64; 2]) -> Beginnings {
+fn of_one_unknown(known: bool, [factor, right]: [f64; 2]) -> Beginnings {
     let limits = |force, clearance| LoadLimits {
         force,
         moment: 0.0,
         clearance,
     };
     let (strong, loose) = (limits(0.1, 0.5), limits(0.4, 0.2));
+    let x = if known { 3.0 } else { 0.0 };
+    let further = if known {
+        vec![right - factor * x]
+    } else {
+        vec![factor, right]
+    };
     Beginnings {
-        unknowns: 1,
+        unknowns: usize::from(!known),
         sides: 1,
-        width: 2,
+        sure: true,
         work: 1e-9,
         clearance: ClearanceSum::Worst,
-        common: if known {
-            vec![vec![2.0, 6.0]]
-        } else {
-            Vec::new()
-        },
-        further: vec![vec![vec![further.to_vec()], Vec::new()]],
+        further: vec![vec![vec![further], Vec::new()]],
         places: vec![LoadedPlace {
             variable: 0,
             slot: 0,
-            contours: vec![(0, 1.0)],
-            fixed: vec![[0.0; 6]],
-            across: vec![[1.0, 0.0, 0.0, 0.0, 0.0, 0.0]],
+            fixed: vec![[x, 0.0, 0.0, 0.0, 0.0, 0.0]],
+            open: vec![[1.0, 0.0, 0.0, 0.0, 0.0, 0.0]],
         }],
         of_variable: vec![vec![0]],
         limits: vec![vec![vec![strong], vec![loose]]],
@@ -80,9 +80,8 @@ fn a_place_that_ended_a_branch_is_looked_at_first() {
     of.places.push(LoadedPlace {
         variable: 0,
         slot: 0,
-        contours: vec![(0, 1.0)],
-        fixed: vec![[0.0; 6]],
-        across: vec![[2.0, 0.0, 0.0, 0.0, 0.0, 0.0]],
+        fixed: vec![[6.0, 0.0, 0.0, 0.0, 0.0, 0.0]],
+        open: Vec::new(),
     });
     of.of_variable[0].push(1);
     let mut begun = of.begin_empty();
