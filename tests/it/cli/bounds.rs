@@ -140,10 +140,9 @@ fn no_reader_reads_without_a_bound() {
     ] {
         let _ = fs::remove_file(folder.path().join("robot.xml"));
         fs::hard_link(folder.path().join("huge"), folder.path().join("robot.xml")).unwrap();
-        let begun = std::time::Instant::now();
         let o = run_shell(
             folder.path(),
-            &format!("ulimit -v 1000000; exec ozols {line} --quiet"),
+            &format!("ulimit -v 1000000; ulimit -t 20; exec ozols {line} --quiet"),
         );
         let said = utf8_text(&o.stderr);
         assert_eq!(o.status.code(), Some(2), "{line}: {said}");
@@ -151,11 +150,6 @@ fn no_reader_reads_without_a_bound() {
             !said.is_empty() && said.len() < 2000,
             "{line}: {} bytes",
             said.len()
-        );
-        assert!(
-            begun.elapsed().as_secs() < 20,
-            "{line}: {:?}",
-            begun.elapsed()
         );
     }
     assert_eq!(huge.metadata().unwrap().len(), 1_500_000_000);
