@@ -151,7 +151,7 @@ fn accept_requests(listener: &TcpListener, door: &Arc<Door>, room: &Arc<Room>) {
 struct Busy<'a>(&'a AtomicUsize);
 
 impl Busy<'_> {
-    /// Counts a request. Returns `None` if there are too many.
+    /// Returns a request that is counted, or `None` if there are too many.
     fn new(all: &AtomicUsize) -> Option<Busy<'_>> {
         let one = Busy(all);
         (all.fetch_add(1, Ordering::SeqCst) < CONNECTIONS).then_some(one)

@@ -142,7 +142,7 @@ fn no_reader_reads_without_a_bound() {
         fs::hard_link(folder.path().join("huge"), folder.path().join("robot.xml")).unwrap();
         let o = run_shell(
             folder.path(),
-            &format!("ulimit -v 1000000; ulimit -t 20; exec ozols {line} --quiet"),
+            &format!("ulimit -v 1000000; ulimit -t 10; exec ozols {line} --quiet"),
         );
         let said = utf8_text(&o.stderr);
         assert_eq!(o.status.code(), Some(2), "{line}: {said}");

@@ -143,7 +143,8 @@ fn whatever_takes_long_ends_at_once() {
     ] {
         let folder = &Folder::new();
         let begun = Instant::now();
-        let child = start_limited(folder, args, 10);
+        // 0.4 s until the signal and less than two after it, on two threads.
+        let child = start_limited(folder, &format!("{args} --threads 2"), 4);
         let o = interrupted(child, "INT", || {
             begun.elapsed() > Duration::from_millis(400)
         });

@@ -39,10 +39,9 @@ struct LoadedPlace {
 /// variants leave open.
 #[derive(Debug)]
 pub(in crate::score) struct Beginnings {
-    unknowns: usize,
+    /// The solutions of no further equations.
+    start: SolutionSpace,
     sides: usize,
-    /// Whether the equations of all variants are far enough from dependent ones that their rank is sure.
-    sure: bool,
     /// Greatest work of the loads that is rounding.
     work: f64,
     clearance: ClearanceSum,
@@ -89,11 +88,12 @@ impl Beginnings {
             return None;
         }
         let common = common_equations(table)?;
+        let mut start = SolutionSpace::unrestricted(common.open.len(), table.cases);
+        start.weakest = common.least;
         let choices = table.cells.iter().map(|c| vec![Vec::new(); c.len()]);
         let mut out = Beginnings {
-            unknowns: common.open.len(),
+            start,
             sides: table.cases,
-            sure: common.least > SURE,
             work: WORK * table.scale,
             clearance,
             further: choices.collect(),
@@ -131,21 +131,20 @@ impl Beginnings {
                 }
             }
         }
-        let loads = (0..table.cases).map(|case| {
-            affine_load(common, case, &|x| {
-                let wrench = table.wrench_at(place, case, x, &[]);
-                let ([fx, fy, fz], [mx, my, mz]) = table.borne_at(place, &wrench);
-                [fx, fy, fz, mx, my, mz]
-            })
-        });
-        let (fixed, open): (Vec<_>, Vec<_>) = loads.unzip();
+        let load = |case: usize, x: &[f64]| {
+            let wrench = table.wrench_at(place, case, x, &[]);
+            let ([fx, fy, fz], [mx, my, mz]) = table.borne_at(place, &wrench);
+            [fx, fy, fz, mx, my, mz]
+        };
+        let cases = 0..table.cases;
+        // What an unknown contributes is the same in every load case.
+        let (_, open) = affine_load(common, 0, &|x| load(0, x));
         self.of_variable[place.variable].push(self.places.len());
         self.places.push(LoadedPlace {
             variable: place.variable,
             slot: place.slot,
-            fixed,
-            // They are the same in every load case.
-            open: open.into_iter().next().unwrap_or_default(),
+            fixed: cases.map(|case| load(case, &common.solution)).collect(),
+            open,
         });
     }
 
@@ -153,7 +152,7 @@ impl Beginnings {
     pub(in crate::score) fn begin_empty(&self) -> Begun<'_> {
         Begun {
             of: self,
-            solutions: vec![SolutionSpace::unrestricted(self.unknowns, self.sides)],
+            solutions: vec![self.start.clone()],
             depth: 0,
             chosen: self.least.clone(),
             known: false,
@@ -206,8 +205,8 @@ impl Begun<'_> {
     /// case.
     ///
     /// # Complexity
-    /// O(unknowns · width) for each further freedom as long as reactions are not known, and then O(unknowns). If the reactions become
-    /// known by it, call [`Begun::peak_bounds`] before the next choice.
+    /// O(unknowns · (unknowns + load cases)) for each further freedom until the reactions are known, and O(unknowns) after that. If they
+    /// become known by this choice, call [`Begun::peak_bounds`] before the next choice.
     pub(in crate::score) fn take_choice(
         &mut self,
         variable: usize,
@@ -229,7 +228,7 @@ impl Begun<'_> {
             let (before, next) = self.solutions.split_at_mut(self.depth);
             next[0].copy_from(&before[self.depth - 1]);
         }
-        let held = further.iter().all(|row| self.is_held(row));
+        let held = further.iter().all(|row| self.take_equation(row));
         if held && !self.known && self.is_determined() {
             (self.known, taken.tells) = (true, true);
             self.errors = false;
@@ -247,7 +246,7 @@ impl Begun<'_> {
     }
 
     /// Adds an equation, unless the reactions are known. Returns false if loads do work on a motion that nothing drives.
-    fn is_held(&mut self, row: &[f64]) -> bool {
+    fn take_equation(&mut self, row: &[f64]) -> bool {
         let solutions = &mut self.solutions[self.depth];
         let adds = !self.known && solutions.add_equation(row, &mut self.scratch);
         adds || solutions.first_gap(row).abs() <= self.of.work
@@ -255,7 +254,7 @@ impl Begun<'_> {
 
     fn is_determined(&self) -> bool {
         let solutions = &self.solutions[self.depth];
-        solutions.is_determined() && self.of.sure && solutions.weakest > SURE
+        solutions.is_determined() && solutions.weakest > SURE
     }
 
     /// Returns the force and moment at a place in a load case.

@@ -10,6 +10,7 @@ use crate::model::ranking::ClearanceSum;
 use crate::score::evaluation::coupled::CoupledChoice;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::pose_tables::{PlacedJoint, PoseTable};
+use crate::score::evaluation::spectrum::dot_product;
 use crate::score::evaluation::terms::Floor;
 use ozols_dense::{Matrix, difference, norm, svd, thin_svd};
 
@@ -33,7 +34,7 @@ struct AffineLoads {
 /// The solutions of the common equations for the contours' wrenches.
 pub(super) struct Common {
     /// A solution, unknowns × cases.
-    solution: Vec<f64>,
+    pub(super) solution: Vec<f64>,
     cases: usize,
     /// Orthonormal directions they leave open, each over the unknowns.
     pub(super) open: Vec<Vec<f64>>,
@@ -45,12 +46,14 @@ impl Common {
     /// Returns an equation over the open directions, and then its right sides.
     pub(super) fn restrict_equation(&self, equation: &[f64]) -> Vec<f64> {
         let (row, right) = equation.split_at(equation.len() - self.cases);
-        let product = |direction: &Vec<f64>| row.iter().zip(direction).map(|(a, d)| a * d).sum();
         let gap = |(case, b): (usize, &f64)| {
             let values = self.solution.iter().skip(case).step_by(self.cases);
             b - row.iter().zip(values).map(|(a, x)| a * x).sum::<f64>()
         };
-        let open = self.open.iter().map(product);
+        let open = self
+            .open
+            .iter()
+            .map(|direction| dot_product(row, direction));
         open.chain(right.iter().enumerate().map(gap)).collect()
     }
 }

@@ -65,13 +65,13 @@ impl SolutionSpace {
         equation: &[f64],
         [along, decided]: &mut [Vec<f64>; 2],
     ) -> bool {
+        if self.is_determined() {
+            return false;
+        }
         let (row, right) = equation.split_at(self.unknowns);
+        let open = self.open.chunks_exact(self.unknowns);
         along.clear();
-        along.extend(
-            self.open
-                .chunks_exact(self.unknowns.max(1))
-                .map(|open| dot_product(row, open)),
-        );
+        along.extend(open.clone().map(|open| dot_product(row, open)));
         let square = dot_product(along, along);
         let size = square.sqrt();
         if size < DEPENDENT {
@@ -79,7 +79,7 @@ impl SolutionSpace {
         }
         decided.clear();
         decided.resize(self.unknowns, 0.0);
-        for (open, &c) in self.open.chunks_exact(self.unknowns.max(1)).zip(&*along) {
+        for (open, &c) in open.zip(&*along) {
             add_scaled(decided, c, open);
         }
         for (fixed, b) in self.fixed.chunks_exact_mut(self.unknowns).zip(right) {

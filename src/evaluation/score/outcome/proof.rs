@@ -89,7 +89,7 @@ struct Here {
 /// of all branches.
 ///
 /// # Complexity
-/// O(unknowns · width) a branch, and a scoring for each variant that no bound puts behind.
+/// O(unknowns · (unknowns + load cases)) for each branch, and a scoring for each variant that no bound puts behind.
 pub(in crate::score) fn prove_best(
     evaluator: &Evaluator<'_>,
     diagram: &Diagram,

@@ -18,9 +18,8 @@ fn of_one_unknown(known: bool, [factor, right]: [f64; 2]) -> Beginnings {
         vec![factor, right]
     };
     Beginnings {
-        unknowns: usize::from(!known),
+        start: SolutionSpace::unrestricted(usize::from(!known), 1),
         sides: 1,
-        sure: true,
         work: 1e-9,
         clearance: ClearanceSum::Worst,
         further: vec![vec![vec![further], Vec::new()]],
