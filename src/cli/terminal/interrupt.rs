@@ -66,19 +66,24 @@ fn handle() -> Result<(), ctrlc::Error> {
 }
 
 fn handle_signal(signal: u8) {
-    let _ = FIRST.compare_exchange(0, signal, Ordering::SeqCst, Ordering::SeqCst);
-    output::cut_short();
     let name = NAMES.iter().find(|(n, _)| *n == signal);
     let name = name.map_or("a signal", |(_, name)| name);
-    if PATIENT.load(Ordering::SeqCst) && !PENDING.swap(true, Ordering::SeqCst) {
-        output::print_note(&format!(
-            "interrupted by {name}; printing the results so far (once more ends at once)\n"
-        ));
+    let goes_on = PATIENT.load(Ordering::SeqCst) && !PENDING.load(Ordering::SeqCst);
+    let end = if goes_on {
+        "; printing the results so far (once more ends at once)"
+    } else {
+        ""
+    };
+    // Before anything else: work that ends early may end the program while this thread waits.
+    output::print_note(&format!("interrupted by {name}{end}\n"));
+    let _ = FIRST.compare_exchange(0, signal, Ordering::SeqCst, Ordering::SeqCst);
+    output::cut_short();
+    if goes_on {
+        PENDING.store(true, Ordering::SeqCst);
         return;
     }
     output::hide_spinner();
     output::remove_unfinished();
-    output::print_note(&format!("interrupted by {name}\n"));
     std::process::exit(signal_code(signal).into());
 }
 
