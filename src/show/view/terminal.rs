@@ -1,9 +1,9 @@
 //! Common parts of texts for people: tables that fit the terminal, prefixes of units, next commands.
 
-use comfy_table::{ColumnConstraint, ContentArrangement, TableComponent, Width, presets};
-use console::measure_text_width;
 use itertools::Itertools;
+use std::borrow::Cow;
 use std::fmt::Display;
+use textwrap::core::display_width;
 
 pub mod next_commands;
 
@@ -92,66 +92,90 @@ pub fn text_table(
 
 /// Returns the same with heads that may hold any text.
 pub fn table_of(header: &[&str], rows: Vec<Vec<String>>, width: Option<u16>) -> String {
+    let of_column = |(c, head): (usize, &_)| -> Vec<&str> {
+        let cells = rows.iter().map(|r| r.get(c).map_or("", String::as_str));
+        std::iter::once(*head).chain(cells).collect()
+    };
+    let columns: Vec<Vec<&str>> = header.iter().enumerate().map(of_column).collect();
     let Some(width) = width.map(usize::from) else {
-        return render_table(header, rows, None);
+        let full = columns.iter().map(|column| used_width(column, usize::MAX));
+        return render_columns(columns.iter().zip(full));
     };
-    let least = header.iter().enumerate().map(|(c, head)| {
-        let cells = rows.iter().filter_map(|r| r.get(c)).map(String::as_str);
-        least_width(cells.chain([*head]), width / 2)
-    });
-    let least: Vec<usize> = least.collect();
-    let part = |part: &Vec<usize>| {
-        let header: Vec<&str> = part.iter().map(|&c| header[c]).collect();
-        let rows = rows.iter().map(|r| {
-            let cells = part.iter().map(|&c| r.get(c).cloned().unwrap_or_default());
-            cells.collect()
-        });
-        let least = part.iter().map(|&c| least[c]).collect();
-        render_table(&header, rows.collect(), Some((width, least)))
+    let least = columns.iter().map(|column| least_width(column, width / 2));
+    let parts = fitting_parts(&least.collect_vec(), width);
+    let part = |part: Vec<usize>| {
+        let columns = part.iter().map(|&c| &columns[c]).collect_vec();
+        let widths = fitting_widths(&columns, width);
+        render_columns(columns.into_iter().zip(widths))
     };
-    fitting_parts(&least, width).iter().map(part).join("\n\n")
+    parts.into_iter().map(part).join("\n\n")
 }
 
-/// Renders a table; one of a width has the least widths of its columns.
-fn render_table(
-    header: &[&str],
-    rows: Vec<Vec<String>>,
-    fit: Option<(usize, Vec<usize>)>,
-) -> String {
-    let mut table = comfy_table::Table::new();
-    table
-        .load_preset(presets::NOTHING)
-        .set_style(TableComponent::HeaderLines, '-')
-        .set_style(TableComponent::MiddleHeaderIntersections, ' ')
-        .set_content_arrangement(ContentArrangement::Dynamic);
-    table.set_header(header.to_vec());
-    table.add_rows(rows);
-    if let Some((width, least)) = fit {
-        let cells = |n: usize| u16::try_from(n).unwrap_or(u16::MAX);
-        // A margin on the left is added below.
-        table.set_width(cells(width.max(taken_width(&least)) - 1));
-        let least = least.iter().map(|w| Width::Fixed(cells(w + PADDING)));
-        table.set_constraints(least.map(ColumnConstraint::LowerBoundary));
+/// Returns the width of each column of a table that is `width` wide. Heads are wrapped before cells are, and the columns that need most
+/// share what the others leave.
+fn fitting_widths(columns: &[&Vec<&str>], width: usize) -> Vec<usize> {
+    let fits = |widths: &Vec<usize>| taken_width(widths.iter().copied()) <= width;
+    let least = columns.iter().map(|column| least_width(column, width / 2));
+    let least = least.collect_vec();
+    let cells = columns.iter().zip(&least);
+    let cells = cells.map(|(column, &least)| used_width(&column[1..], usize::MAX).max(least));
+    let least = Some(cells.collect()).filter(fits).unwrap_or(least);
+    let up_to = |most: usize| {
+        let widths = columns.iter().zip(&least);
+        let widths = widths.map(|(column, &least)| used_width(column, most.max(least)).max(least));
+        widths.collect_vec()
+    };
+    let shares = (0..=width).collect_vec();
+    let fitting = shares.partition_point(|&most| fits(&up_to(most)));
+    let widths = fitting.checked_sub(1).map(up_to);
+    widths.filter(fits).unwrap_or(least)
+}
+
+/// Renders columns next to each other, the cells of each wrapped to its width; the first cell is the head.
+fn render_columns<'a>(columns: impl Iterator<Item = (&'a Vec<&'a str>, usize)>) -> String {
+    let columns = columns.collect_vec();
+    let mut out = Vec::new();
+    for row in 0..columns.first().map_or(0, |(column, _)| column.len()) {
+        let cells = columns.iter().map(|(c, width)| wrapped(c[row], *width));
+        let cells = cells.collect_vec();
+        let height = cells.iter().map(Vec::len).max().unwrap_or(0);
+        for line in 0..height {
+            let mut text = String::new();
+            for (lines, (_, width)) in cells.iter().zip(&columns) {
+                let cell = lines.get(line).map_or("", |l| l);
+                let gap = width + PADDING - display_width(cell);
+                text.extend(["  ", cell]);
+                text.extend(std::iter::repeat_n(' ', gap - 1));
+            }
+            text.truncate(text.trim_end().len());
+            out.push(text);
+        }
+        if row == 0 {
+            let rules = columns.iter().map(|(_, width)| "-".repeat(width + PADDING));
+            out.push(format!(" {}", rules.format(" ")));
+        }
     }
-    let text = table.to_string();
-    text.lines()
-        .map(|l| format!(" {}", l.trim_end()))
-        .join("\n")
+    out.join("\n")
 }
 
 /// Spaces on both sides of a cell.
 const PADDING: usize = 2;
 
 /// Returns the width of a table with such columns, a margin on the left and gaps between columns.
-fn taken_width(widths: &[usize]) -> usize {
-    widths.iter().map(|w| w + PADDING + 1).sum()
+fn taken_width(widths: impl Iterator<Item = usize>) -> usize {
+    widths.map(|w| w + PADDING + 1).sum()
+}
+
+/// Returns the width of some cells if they are wrapped to `most`.
+fn used_width(cells: &[&str], most: usize) -> usize {
+    let lines = cells.iter().flat_map(|cell| wrapped(cell, most));
+    lines.map(|l| display_width(&l)).max().unwrap_or(0).max(1)
 }
 
 /// Returns the least width of a column: its longest word, but no more than `most`.
-fn least_width<'a>(cells: impl Iterator<Item = &'a str>, most: usize) -> usize {
-    let words = cells.flat_map(str::split_whitespace);
-    let longest = words.map(measure_text_width).max().unwrap_or(0);
-    // No column of a table is narrower than this.
+fn least_width(column: &[&str], most: usize) -> usize {
+    let words = column.iter().flat_map(|cell| cell.split_whitespace());
+    let longest = words.map(display_width).max().unwrap_or(0);
     longest.min(most).max(1)
 }
 
@@ -161,7 +185,7 @@ fn fitting_parts(least: &[usize], width: usize) -> Vec<Vec<usize>> {
     for c in 0..least.len() {
         let last = out.len() - 1;
         let with = out[last].iter().chain([&c]).map(|&c| least[c]);
-        if taken_width(&with.collect::<Vec<_>>()) > width && out[last].len() > 1 {
+        if taken_width(with) > width && out[last].len() > 1 {
             out.push(vec![0, c]);
         } else {
             out[last].push(c);
@@ -186,19 +210,28 @@ pub fn fit_lines(text: &str, width: Option<u16>) -> String {
 }
 
 fn wrap_line(line: &str, width: usize) -> String {
-    if measure_text_width(line) <= width {
+    if display_width(line) <= width {
         return line.to_owned();
     }
     let margin = line.len() - line.trim_start_matches(' ').len();
     let indent = " ".repeat(margin + 2);
-    let options = textwrap::Options::new(width)
+    let options = between_words(width)
         .initial_indent(&line[..margin])
         .subsequent_indent(&indent)
-        .break_words(false)
+        .break_words(false);
+    textwrap::fill(&line[margin..], options)
+}
+
+/// Returns the lines of a cell, broken within words that are wider than the column.
+fn wrapped(cell: &str, width: usize) -> Vec<Cow<'_, str>> {
+    textwrap::wrap(cell, between_words(width))
+}
+
+fn between_words<'a>(width: usize) -> textwrap::Options<'a> {
+    textwrap::Options::new(width)
         .word_separator(textwrap::WordSeparator::AsciiSpace)
         .word_splitter(textwrap::WordSplitter::NoHyphenation)
-        .wrap_algorithm(textwrap::WrapAlgorithm::FirstFit);
-    textwrap::fill(&line[margin..], options)
+        .wrap_algorithm(textwrap::WrapAlgorithm::FirstFit)
 }
 
 /// Returns the factor to divide by and the unit prefix for values up to `greatest`.
@@ -216,7 +249,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn widest(text: &str) -> usize {
-        text.lines().map(measure_text_width).max().unwrap_or(0)
+        text.lines().map(display_width).max().unwrap_or(0)
     }
 
     #[test]
@@ -278,7 +311,7 @@ mod tests {
         fn every_word_is_kept_and_every_line_fits(text in "( {0,4}([a-zσ]{1,9} {1,3}){0,12}\n){0,5}", width in 24u16..90) {
             let fitted = fit_lines(&text, Some(width));
             prop_assert!(fitted.split_whitespace().eq(text.split_whitespace()));
-            let long = fitted.lines().find(|l| measure_text_width(l.trim_end()) > usize::from(width));
+            let long = fitted.lines().find(|l| display_width(l.trim_end()) > usize::from(width));
             prop_assert!(long.is_none(), "{fitted}");
         }
     }
