@@ -10,19 +10,19 @@
 
 pub mod answer;
 pub mod at_tolerance;
-pub mod build;
 pub mod check;
 pub mod diagram;
 pub(crate) mod order;
 pub mod question;
 mod reduce;
+pub mod solve;
 #[doc(hidden)]
 pub mod testing;
 
-use crate::search::build::Diagrams;
-use crate::search::build::orders::Orders;
 use crate::search::diagram::{Diagram, Progress};
 use crate::search::question::Question;
+use crate::search::solve::Diagrams;
+use crate::search::solve::orders::Orders;
 
 /// A search is a prepared question; this module has the methods that build its diagrams, and [`answer`] those that read them.
 pub use crate::search::question::Question as Search;
@@ -41,7 +41,7 @@ impl Question {
     /// ```
     #[must_use]
     pub fn variable_orders(&self) -> Orders {
-        build::orders::variable_orders(self)
+        solve::orders::variable_orders(self)
     }
 
     /// Builds the diagrams of the determinate and of the admissible variants.
@@ -50,7 +50,7 @@ impl Question {
         cancelled: &(dyn Fn() -> bool + Sync),
         progress: &mut (dyn FnMut(Progress) + Send),
     ) -> Diagrams {
-        build::build_diagrams(self, cancelled, progress)
+        solve::build_diagrams(self, cancelled, progress)
     }
 
     /// Builds the diagrams in given orders.
@@ -60,12 +60,12 @@ impl Question {
         cancelled: &(dyn Fn() -> bool + Sync),
         progress: &mut (dyn FnMut(Progress) + Send),
     ) -> Diagrams {
-        build::build_in(self, orders, cancelled, progress)
+        solve::build_in(self, orders, cancelled, progress)
     }
 
     /// Returns whether all variants of another search's diagram are determinate here.
     #[must_use]
     pub fn has_all(&self, known: &Diagram) -> bool {
-        build::known_variants::has_all(self, known)
+        solve::known_variants::has_all(self, known)
     }
 }

@@ -19,13 +19,13 @@ use crate::search::answer::estimate::Estimate;
 use crate::search::answer::everywhere::count_everywhere;
 use crate::search::answer::search_counts::SearchCounts;
 use crate::search::at_tolerance::AtTolerance;
-use crate::search::build::Diagrams;
 use crate::search::check::other_poses::Stroke;
 use crate::search::check::second_opinion::SecondOpinion;
 use crate::search::check::second_prime::PrimeCheck;
 use crate::search::diagram::Stop;
 use crate::search::question::conditions::Symmetry;
 use crate::search::question::throughout::PoseOnly;
+use crate::search::solve::Diagrams;
 use num_bigint::BigUint;
 use std::collections::BTreeMap;
 

@@ -13,7 +13,6 @@ use crate::search::answer::counts::Counts;
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::search_counts::SearchCounts;
 use crate::search::answer::search_counts::orbit_counts;
-use crate::search::build::Diagrams;
 use crate::search::check::brute;
 use crate::search::check::other_poses;
 use crate::search::check::second_opinion::{self, SecondOpinion};
@@ -23,6 +22,7 @@ use crate::search::diagram::{Progress, Stop};
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, Symmetry};
 use crate::search::question::rounded_rank::Digits;
+use crate::search::solve::Diagrams;
 use std::sync::Arc;
 
 pub use crate::score::request::error::RunError;

@@ -3,15 +3,15 @@
 use super::answer::ideas::ideas_in_steps;
 use super::answer::k_best::{Cheapest, Reach};
 use super::answer::keys::Key;
-use super::build::Diagrams;
-use super::build::lanes::in_self_stress_space;
-use super::build::orders::{one_diagram, variable_orders};
-use super::build::self_stress::{Wanted, diagram_limits};
-use super::build::spanning_halves::Halves;
-use super::build::two_sided::two_sided;
 use super::diagram::minimize::minimize_diagram;
 use super::diagram::{Diagram, Stop};
 use super::question::Question;
+use super::solve::Diagrams;
+use super::solve::lanes::in_self_stress_space;
+use super::solve::orders::{one_diagram, variable_orders};
+use super::solve::self_stress::{Wanted, diagram_limits};
+use super::solve::spanning_halves::Halves;
+use super::solve::two_sided::two_sided;
 
 /// Returns the diagrams of a question that fit the limits, minimized: each as built from one end and from both ends. The second is `None`
 /// if more redundant constraints are allowed than every variant has. Those of variants that keep the motion throughout are built within the

@@ -1,7 +1,7 @@
 //! Ways of the engine that must give the same, looked at from the inside.
 
 use crate::common::*;
-use ozols::search::build::build_diagrams;
+use ozols::search::solve::build_diagrams;
 use ozols::search::testing::{Walked, walked_for_ideas, walked_for_variants};
 
 /// A list ten times as long takes no more steps than k log k says.

@@ -7,9 +7,9 @@ use crate::score::outcome::ranking::{Ranked, RankedPool, Ranker};
 use crate::score::request::{List, Request};
 use crate::search::Search;
 use crate::search::answer::counts;
-use crate::search::build::Diagrams;
 use crate::search::diagram::Stop;
 use crate::search::question::conditions::Symmetry;
+use crate::search::solve::Diagrams;
 
 /// Computes the scores of the cheapest variants and sorts the best, if a ranking is requested.
 ///

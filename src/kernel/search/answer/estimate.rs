@@ -9,12 +9,12 @@
 
 use crate::search::answer::by_tally::sample_of;
 use crate::search::answer::counts::count_total;
-use crate::search::build::at_most::{AtMost, at_most};
-use crate::search::build::orders::Orders;
-use crate::search::build::self_stress::Wanted;
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::diagram::{Diagram, Stop};
 use crate::search::question::Question;
+use crate::search::solve::at_most::{AtMost, at_most};
+use crate::search::solve::orders::Orders;
+use crate::search::solve::self_stress::Wanted;
 use num_bigint::BigUint;
 use num_traits::ToPrimitive;
 use rayon::prelude::*;

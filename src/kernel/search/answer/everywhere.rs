@@ -10,12 +10,12 @@
 //! which has at least as many. So choices that miss any have no completion.
 
 use crate::linalg::modp::{Field, Residue};
-use crate::search::build::self_stress::space_along_motion;
 use crate::search::diagram::Diagram;
 use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
 use crate::search::question::Question;
 use crate::search::question::throughout::POWERS;
 use crate::search::reduce::self_stress_space::SelfStressSpace;
+use crate::search::solve::self_stress::space_along_motion;
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
 use std::collections::BTreeMap;

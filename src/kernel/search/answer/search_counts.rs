@@ -1,10 +1,10 @@
 //! The counts of a search: determinate variants, admissible ones, and those that keep the motion throughout.
 
 use crate::search::answer::counts::{Counts, count_orbits};
-use crate::search::build::{Diagrams, build_diagrams};
 use crate::search::diagram::{Diagram, Stop};
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, SearchError, Symmetry};
+use crate::search::solve::{Diagrams, build_diagrams};
 use num_bigint::BigUint;
 
 /// The counts of a search.

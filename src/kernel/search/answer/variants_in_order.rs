@@ -4,10 +4,10 @@ use crate::search::answer::by_tally::sample_of;
 use crate::search::answer::k_best::{Assignment, Cheapest, Reach, enter_all};
 use crate::search::answer::keys::Key;
 use crate::search::answer::proven_cheapest::UpTo;
-use crate::search::build::Diagrams;
 use crate::search::diagram::Diagram;
 use crate::search::question::Question;
 use crate::search::question::conditions::Symmetry;
+use crate::search::solve::Diagrams;
 
 impl Question {
     /// Returns at most `top` admissible variants, cheapest first, then by W, then by changes, then in the order of the diagram's variables.

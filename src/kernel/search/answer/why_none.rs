@@ -5,12 +5,12 @@ use crate::geom::exact::ExactError;
 use crate::model::mechanism::{JointId, StateId};
 use crate::redundancy::motion::motion_basis;
 use crate::search::answer::counts::Counts;
-use crate::search::build::build_diagrams;
 use crate::search::check::brute::Matrices;
 use crate::search::diagram::Stop;
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, InState, SearchError};
 use crate::search::question::kept::Drives;
+use crate::search::solve::build_diagrams;
 use num_bigint::BigUint;
 use num_traits::Zero;
 

@@ -6,11 +6,11 @@
 //! count, every list and every sample drawn from them is equal too.
 
 use crate::search::answer::search_counts::SearchCounts;
-use crate::search::build::Diagrams;
-use crate::search::build::build_in;
-use crate::search::build::orders::variable_orders;
 use crate::search::diagram::{Diagram, Progress, Stop};
 use crate::search::question::Question;
+use crate::search::solve::Diagrams;
+use crate::search::solve::build_in;
+use crate::search::solve::orders::variable_orders;
 use num_bigint::BigUint;
 use thiserror::Error;
 

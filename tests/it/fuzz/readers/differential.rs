@@ -5,8 +5,8 @@ use super::slow_search::{Choice, Twin, all_variants, look_at_variant as look_at,
 use crate::common::*;
 use ozols::Mechanism;
 use ozols::search::answer::counts::Counts;
-use ozols::search::build::Diagrams;
 use ozols::search::check::brute::every_variant;
+use ozols::search::solve::Diagrams;
 use std::fmt::Write;
 
 /// Variants looked at, at most.

@@ -11,12 +11,12 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::search::answer::counts::count_total;
-use crate::search::build::Diagrams;
 use crate::search::diagram::minimize::minimize_diagram;
 use crate::search::diagram::{DEAD, Diagram, Layer, Stop};
 use crate::search::question::Question;
 use crate::search::question::conditions::Symmetry;
 use crate::search::question::space::{Choice, Variable};
+use crate::search::solve::Diagrams;
 use hashbrown::HashMap;
 use hashbrown::hash_map::Entry;
 use num_bigint::BigUint;

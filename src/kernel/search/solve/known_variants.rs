@@ -3,15 +3,15 @@
 //! Only choices of known variants are followed: half of the variables from the front, the other half from the back. At their
 //! meeting, spaces are compared that variants lead to through the same node of the known diagram.
 
-use crate::search::build::self_stress::{Wanted, diagram_limits};
-use crate::search::build::spanning_halves::Halves;
-use crate::search::build::spanning_pairs::{Bases, WalkMemory, ZeroForms};
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
 use crate::search::diagram::stage::Stage;
 use crate::search::diagram::{DEAD, Diagram, Expanded, Layer, Stop, next_layer};
 use crate::search::question::Question;
 use crate::search::question::space::{Choice, Space};
+use crate::search::solve::self_stress::{Wanted, diagram_limits};
+use crate::search::solve::spanning_halves::Halves;
+use crate::search::solve::spanning_pairs::{Bases, WalkMemory, ZeroForms};
 use itertools::Itertools;
 
 /// Returns true if every variant of a diagram is determinate in a question. Returns false if not, if the diagram or the question allows

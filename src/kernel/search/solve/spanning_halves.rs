@@ -6,9 +6,6 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
-use crate::search::build::matching_halves::{Grouped, count_lookups, match_halves};
-use crate::search::build::self_stress::{Wanted, flat_stages, self_stress_space};
-use crate::search::build::spanning_pairs::{Bases, WalkMemory, ZeroForms};
 use crate::search::diagram::layer::Nodes;
 use crate::search::diagram::node_sets::{
     Numbered, Set, add_node, completing_sets, empty_set, nodes_in,
@@ -21,6 +18,9 @@ use crate::search::diagram::{DEAD, Diagram};
 use crate::search::question::Question;
 use crate::search::reduce::lifetimes::Lifetime;
 use crate::search::reduce::self_stress_space::SelfStressSpace;
+use crate::search::solve::matching_halves::{Grouped, count_lookups, match_halves};
+use crate::search::solve::self_stress::{Wanted, flat_stages, self_stress_space};
+use crate::search::solve::spanning_pairs::{Bases, WalkMemory, ZeroForms};
 
 /// Lookups of nodes that take about as long as a pair of them.
 const A_PAIR: usize = 5;

@@ -12,18 +12,18 @@ pub(in crate::search) mod two_sided;
 
 use crate::search::answer::estimate::{Estimate, estimate_counts};
 use crate::search::answer::proven_cheapest::{UpTo, cost_of, up_to};
-use crate::search::build::at_most::at_most;
-use crate::search::build::lanes::{Lanes, in_self_stress_space};
-use crate::search::build::orders::{Orders, one_diagram, variable_orders};
-use crate::search::build::self_stress::{Wanted, diagram_limits, empty_diagram};
-use crate::search::build::spanning_halves::Halves;
-use crate::search::build::two_sided::two_sided;
 use crate::search::diagram::completion::Missing;
 use crate::search::diagram::layer::CUT;
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::diagram::{self, Diagram, Omitted, Progress, Stop};
 use crate::search::question::Question;
 use crate::search::question::throughout::PoseOnly;
+use crate::search::solve::at_most::at_most;
+use crate::search::solve::lanes::{Lanes, in_self_stress_space};
+use crate::search::solve::orders::{Orders, one_diagram, variable_orders};
+use crate::search::solve::self_stress::{Wanted, diagram_limits, empty_diagram};
+use crate::search::solve::spanning_halves::Halves;
+use crate::search::solve::two_sided::two_sided;
 use num_bigint::BigUint;
 use num_traits::Zero;
 

@@ -5,7 +5,6 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Field;
-use crate::search::build::self_stress::{Wanted, flat_stages, self_stress_space};
 use crate::search::diagram::between::{Between, LEVELS, Passed};
 use crate::search::diagram::reduced_rows::Arithmetic;
 use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Spent};
@@ -15,6 +14,7 @@ use crate::search::diagram::{DEAD, Diagram, Layer};
 use crate::search::question::Question;
 use crate::search::reduce::lifetimes::Lifetime;
 use crate::search::reduce::self_stress_space::SelfStressSpace;
+use crate::search::solve::self_stress::{Wanted, flat_stages, self_stress_space};
 use hashbrown::HashMap;
 use itertools::Itertools;
 use rayon::prelude::*;

@@ -10,7 +10,6 @@
 //! An automaton reversed, made deterministic, and that once more, is minimal: Brzozowski, "Canonical regular expressions and
 //! minimal state graphs for definite events" (1962).
 
-use crate::search::build::spanning_halves::{Halves, JoinedSides};
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::minimize::minimize_diagram;
 use crate::search::diagram::node_sets::{
@@ -21,6 +20,7 @@ use crate::search::diagram::stage::Stage;
 use crate::search::diagram::within::Within;
 use crate::search::diagram::{DEAD, Diagram, Expanded, Layer, Progress, Stop, next_layer};
 use crate::search::question::space::Space;
+use crate::search::solve::spanning_halves::{Halves, JoinedSides};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 

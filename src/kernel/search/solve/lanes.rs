@@ -14,7 +14,6 @@ use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::{path_in, spanning_tree};
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, LinkId, StateId};
-use crate::search::build::self_stress::{Wanted, empty_diagram, self_stress_space};
 use crate::search::diagram::minimize::minimize_diagram;
 use crate::search::diagram::redundancy_so_far::{Limits, Role, Spent};
 use crate::search::diagram::stage::{Columns, LaneStage, Stage};
@@ -25,6 +24,7 @@ use crate::search::question::conditions::InState;
 use crate::search::question::space::{Choice, Face, Variable};
 use crate::search::reduce::lifetimes::{Lifetime, Offered};
 use crate::search::reduce::self_stress_space::{ClosingRows, SelfStressSpace, is_contained};
+use crate::search::solve::self_stress::{Wanted, empty_diagram, self_stress_space};
 
 /// Returns the diagram of a question for the variables in an order: the smallest there is, or what fits the limits.
 ///
@@ -309,9 +309,9 @@ mod tests {
     use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom, JointType};
     use crate::model::mechanism::{JointId, Mechanism};
     use crate::rank::exact::field::exact_field;
-    use crate::search::build::build_diagrams;
     use crate::search::question::Question;
     use crate::search::question::conditions::{Conditions, SearchError};
+    use crate::search::solve::build_diagrams;
     use itertools::Itertools;
 
     fn question(m: &Mechanism, max_redundant: u32) -> Result<Question, SearchError> {
