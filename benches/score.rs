@@ -11,6 +11,7 @@ use ozols::score::evaluation::elimination::Scratch;
 use ozols::score::evaluation::evaluate::Evaluator;
 use ozols::search::Search;
 use ozols::search::answer::k_best::Assignment;
+use ozols::search::diagram::Control;
 use ozols::search::question::conditions::Conditions;
 use rayon::prelude::*;
 use std::hint::black_box;
@@ -24,7 +25,7 @@ fn gripper() -> Mechanism {
 }
 
 fn pool(search: &Search, n: usize) -> Vec<Assignment> {
-    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let diagrams = search.build_diagrams(Control::NONE);
     let out: Vec<_> = search.cheapest_variants(&diagrams, n).collect();
     out
 }

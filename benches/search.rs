@@ -20,6 +20,7 @@ use ozols::rank::numeric::{DEFAULT_TOLERANCE, Elimination};
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::Search;
 use ozols::search::check::brute::every_variant;
+use ozols::search::diagram::Control;
 use ozols::search::question::conditions::Conditions;
 use std::hint::black_box;
 use std::time::Duration;
@@ -56,7 +57,7 @@ fn whole(m: &Mechanism, top: usize) -> (usize, usize) {
 
 /// The same of a search.
 fn counted(s: &Search, top: usize) -> (usize, usize) {
-    let d = s.build_diagrams(&|| false, &mut |_| {});
+    let d = s.build_diagrams(Control::NONE);
     black_box((
         s.count_variants(&d.determinate, false),
         s.count_variants(&d.admissible, true),
@@ -151,7 +152,7 @@ fn spaces(c: &mut Criterion) {
         let s = search(m);
         let orders = s.variable_orders();
         group.bench_function(BenchmarkId::new("diagrams", name), |b| {
-            b.iter(|| s.build_in(&orders, &|| false, &mut |_| {}))
+            b.iter(|| s.build_in(&orders, Control::NONE))
         });
     }
     group.finish();

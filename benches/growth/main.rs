@@ -23,7 +23,7 @@ use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::Search;
-use ozols::search::diagram::Stop;
+use ozols::search::diagram::{Control, Stop};
 use ozols::search::question::conditions::Conditions;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -98,7 +98,7 @@ fn built(m: &Mechanism) -> (usize, f64, bool) {
         };
         let start = Instant::now();
         let search = Search::new(exact_field(m, 0).expect("exact"), m, conditions).expect("valid");
-        let d = search.build_diagrams(&|| false, &mut |_| {});
+        let d = search.build_diagrams(Control::NONE);
         let took = start.elapsed().as_secs_f64() * 1000.0;
         let nodes = d.determinate.nodes + d.admissible.nodes;
         if took > 300.0 || best < f64::INFINITY {

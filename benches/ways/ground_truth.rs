@@ -15,7 +15,7 @@ use ozols::score::run::{RunError, run};
 use ozols::search::Search;
 use ozols::search::answer::keys::Key;
 use ozols::search::check::brute::{self, Matrices, Seen};
-use ozols::search::diagram::Stop;
+use ozols::search::diagram::{Control, Stop};
 use rayon::prelude::*;
 
 /// The prime of the truth, counted from 0: searches use the first two.
@@ -68,7 +68,7 @@ impl Truth {
         };
         let search = &truth.search;
         if search.size() > BigUint::from(effort.looked) {
-            let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+            let diagrams = search.build_diagrams(Control::NONE);
             looked.truncate(effort.looked.div_ceil(2));
             let good = search.sample_variants(&diagrams, request.seed);
             looked.extend(good.take(effort.looked / 2).map(|a| a.choices));

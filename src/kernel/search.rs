@@ -19,7 +19,7 @@ pub mod solve;
 #[doc(hidden)]
 pub mod testing;
 
-use crate::search::diagram::{Diagram, Progress};
+use crate::search::diagram::{Control, Diagram};
 use crate::search::question::Question;
 use crate::search::solve::Diagrams;
 use crate::search::solve::orders::Orders;
@@ -32,10 +32,10 @@ impl Question {
     ///
     /// # Examples
     /// ```
-    /// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+    /// use ozols::{rank::exact::field::exact_field, search::{Search, diagram::Control, question::conditions::Conditions}};
     /// let four_bar = ozols::built_in("four-bar")?;
     /// let search = Search::new(exact_field(&four_bar, 0)?, &four_bar, Conditions::default())?;
-    /// let known = search.build_in(&search.variable_orders(), &|| false, &mut |_| {});
+    /// let known = search.build_in(&search.variable_orders(), Control::NONE);
     /// assert!(search.has_all(&known.determinate));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -45,22 +45,13 @@ impl Question {
     }
 
     /// Builds the diagrams of the determinate and of the admissible variants.
-    pub fn build_diagrams(
-        &self,
-        cancelled: &(dyn Fn() -> bool + Sync),
-        progress: &mut (dyn FnMut(Progress) + Send),
-    ) -> Diagrams {
-        solve::build_diagrams(self, cancelled, progress)
+    pub fn build_diagrams(&self, control: Control<'_>) -> Diagrams {
+        solve::build_diagrams(self, control)
     }
 
     /// Builds the diagrams in given orders.
-    pub fn build_in(
-        &self,
-        orders: &Orders,
-        cancelled: &(dyn Fn() -> bool + Sync),
-        progress: &mut (dyn FnMut(Progress) + Send),
-    ) -> Diagrams {
-        solve::build_in(self, orders, cancelled, progress)
+    pub fn build_in(&self, orders: &Orders, control: Control<'_>) -> Diagrams {
+        solve::build_in(self, orders, control)
     }
 
     /// Returns whether all variants of another search's diagram are determinate here.

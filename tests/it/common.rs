@@ -387,7 +387,7 @@ pub(crate) fn analysed(m: &Mechanism) -> StateAnalysis {
 /// Returns a search and its diagrams.
 pub(crate) fn searched(m: &Mechanism, conditions: Conditions) -> (Search, Diagrams) {
     let search = Search::new(exact_field(m, 0).unwrap(), m, conditions).unwrap();
-    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let diagrams = search.build_diagrams(Control::NONE);
     (search, diagrams)
 }
 

@@ -21,13 +21,13 @@ fn search(m: &Mechanism, redundant: u32) -> Search {
 }
 
 fn cheapest(s: &Search, n: usize) -> Vec<Assignment> {
-    let d = s.build_diagrams(&|| false, &mut |_| {});
+    let d = s.build_diagrams(Control::NONE);
     let out: Vec<_> = s.cheapest_variants(&d, n).collect();
     out
 }
 
 fn sampled(s: &Search, n: usize) -> Vec<Assignment> {
-    let diagrams = s.build_diagrams(&|| false, &mut |_| {});
+    let diagrams = s.build_diagrams(Control::NONE);
     s.sample_variants(&diagrams, 7).take(n).collect()
 }
 

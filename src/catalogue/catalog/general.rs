@@ -20,7 +20,7 @@ use crate::search::Search;
 use crate::search::answer::counts::count_orbits;
 use crate::search::answer::ideas::{Idea, IdeaBasis};
 use crate::search::check::second_prime::have_same_edges;
-use crate::search::diagram::{Diagram, Stop};
+use crate::search::diagram::{Control, Diagram, Stop};
 use crate::search::question::conditions;
 use crate::synthesis::mechanism::bare_file;
 use crate::synthesis::places::Places;
@@ -207,7 +207,7 @@ impl General {
             };
             let (one, two) = (over(0)?, over(1)?);
             let orders = one.variable_orders();
-            let built = |s: &Search| s.build_in(&orders, &|| false, &mut |_| {});
+            let built = |s: &Search| s.build_in(&orders, Control::NONE);
             let (diagrams, twin) = rayon::join(|| built(&one), || built(&two).determinate);
             let diagram = &diagrams.determinate;
             if diagram.stop != Stop::Exhausted {

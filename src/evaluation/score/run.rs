@@ -18,12 +18,13 @@ use crate::search::check::other_poses;
 use crate::search::check::second_opinion::{self, SecondOpinion};
 use crate::search::check::second_prime::{self, PrimeCheck};
 use crate::search::check::singular_values::{self, CHECKED};
-use crate::search::diagram::{Progress, Stop};
+pub use crate::search::diagram::ShouldCancel;
+use crate::search::diagram::{Control, Progress, Stop};
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, Symmetry};
 use crate::search::question::rounded_rank::Digits;
 use crate::search::solve::Diagrams;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 pub use crate::score::request::error::RunError;
 
@@ -56,8 +57,6 @@ pub enum Event {
 
 /// Hears what happens on the way.
 pub type Tell<'a> = &'a mut (dyn FnMut(Event) + Send);
-/// Returns whether to end early.
-pub type ShouldCancel<'a> = &'a (dyn Fn() -> bool + Sync);
 
 /// Searches a mechanism.
 ///
@@ -224,12 +223,20 @@ fn build_diagrams(
     should_cancel: ShouldCancel<'_>,
     tell: Tell<'_>,
 ) -> Result<(Diagrams, Option<PrimeCheck>), RunError> {
-    let progress = &mut |p| tell(Event::Building(p));
+    let tell = Mutex::new(tell);
+    let progress = |p| {
+        let mut tell = tell.lock().unwrap_or_else(PoisonError::into_inner);
+        tell(Event::Building(p));
+    };
+    let control = Control {
+        cancelled: should_cancel,
+        progress: &progress,
+    };
     let Some(twin) = twin else {
-        return Ok((search.build_diagrams(should_cancel, progress), None));
+        return Ok((search.build_diagrams(control), None));
     };
     let both: [&Question; 2] = [search, twin];
-    let (first, second) = second_prime::build_both(both, should_cancel, progress);
+    let (first, second) = second_prime::build_both(both, control);
     let check = second_prime::compare_primes(both, [&first, &second])?;
     Ok((first, Some(check)))
 }

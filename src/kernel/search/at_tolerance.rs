@@ -14,7 +14,7 @@ pub(in crate::search) use found::{any_choices, choices_of_number};
 use crate::geom::exact::ExactError;
 use crate::search::answer::k_best::{Assignment, Cheapest, Reach, enter_all};
 use crate::search::diagram::redundancy_so_far::Redundancy;
-use crate::search::diagram::{Diagram, Layer, Stop};
+use crate::search::diagram::{Diagram, Layer, ShouldCancel, Stop};
 use crate::search::question::Question;
 use crate::search::question::rounded_rank::Digits;
 use chacha20::ChaCha8Rng;
@@ -51,7 +51,7 @@ impl Question {
         digits: Digits,
         list: usize,
         seed: u64,
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: ShouldCancel<'_>,
     ) -> Result<AtTolerance, ExactError> {
         let judge = Judge::new(self, digits)?;
         let looking = Looking {
@@ -69,7 +69,7 @@ impl Question {
 struct Looking<'a> {
     question: &'a Question,
     judge: &'a Judge<'a>,
-    cancelled: &'a (dyn Fn() -> bool + Sync),
+    cancelled: ShouldCancel<'a>,
 }
 
 impl Looking<'_> {

@@ -19,7 +19,7 @@ pub(in crate::search) mod within;
 use crate::search::diagram::allowance::{Allowance, carry_ways, cut_down};
 use crate::search::diagram::completion::Ceiling;
 use crate::search::diagram::layer::{CUT, Merge, Nodes};
-pub use crate::search::diagram::layer::{DEAD, Layer, Progress, Stop};
+pub use crate::search::diagram::layer::{Control, DEAD, Layer, Progress, ShouldCancel, Stop};
 use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Role, Spent};
 use crate::search::diagram::stage::Stage;
 use crate::search::diagram::subspaces::NONE;
@@ -83,7 +83,7 @@ pub(super) enum Omitted<'a, 'm> {
 
 /// Builds the diagram of a space along given stages, of variants that spend `root` before any choice.
 ///
-/// `cancelled` is called between batches of nodes. Once it returns true, the remaining layers are cut to a few nodes, so
+/// `control` is asked between batches of nodes. Once the search is cancelled, the remaining layers are cut to a few nodes, so
 /// that the paths found so far can still be completed. The result does not depend on the number of threads. Children are
 /// computed in parallel and merged in order.
 ///
@@ -96,8 +96,7 @@ pub(super) fn build_layers(
     limits: &Limits,
     root: Spent,
     mut omitted: Omitted<'_, '_>,
-    cancelled: &(dyn Fn() -> bool + Sync),
-    progress: &mut (dyn FnMut(Progress) + Send),
+    control: Control<'_>,
 ) -> Diagram {
     let kinds = stages.first().map_or(0, |s| s.kinds().count());
     let mut nodes = Nodes::root_node(root, kinds);
@@ -118,6 +117,9 @@ pub(super) fn build_layers(
             wanted: &|edge| known.is_none_or(|known| known.has_edge(edge)),
             bytes: allowance.bytes,
         };
+        let progress = |now: Progress| {
+            (control.progress)(Progress::in_layer(done, stages.len(), total, now.layer));
+        };
         let merge = next_layer(
             stage,
             &from,
@@ -126,8 +128,10 @@ pub(super) fn build_layers(
                 let ceiling = ceiling.as_mut();
                 ceiling.is_some_and(|c| c.is_above(done + 1, spent, dimension, least))
             },
-            cancelled,
-            &mut |layer| progress(Progress::in_layer(done, stages.len(), total, layer)),
+            Control {
+                progress: &progress,
+                ..control
+            },
         );
         stop = merge.stop;
         let (refused, mut next, mut edges) = (merge.refused, merge.next, merge.edges);
@@ -167,15 +171,14 @@ pub(super) struct Expanded<'a> {
 }
 
 /// Returns the merged children of a layer's nodes, without those for which `out` returns true. `out` receives the redundancy spent, the
-/// dimension that the choices add in the open contours, and the least cost of a path to the child. `told` receives the number of
-/// children so far.
+/// dimension that the choices add in the open contours, and the least cost of a path to the child. Of the progress only the
+/// number of children so far is told.
 pub(super) fn next_layer(
     stage: &Stage<'_>,
     from: &Expanded<'_>,
     mut merge: Merge,
     mut out: impl FnMut(&Spent, usize, i64) -> bool,
-    cancelled: &(dyn Fn() -> bool + Sync),
-    told: &mut dyn FnMut(usize),
+    control: Control<'_>,
 ) -> Merge {
     let (nodes, choices) = (from.nodes, from.choices);
     let kinds = stage.kinds().zip(&nodes.spaces);
@@ -209,10 +212,10 @@ pub(super) fn next_layer(
             merge.push_edge(child.spent, &numbers, least);
         }
         merge.edges.resize(batch.end, DEAD);
-        if cancelled() {
+        if (control.cancelled)() {
             merge.interrupt_merge(edges);
         }
-        told(merge.next.len());
+        (control.progress)(Progress::in_layer(0, 1, 0, merge.next.len()));
         if merge.edges.len() == edges {
             break;
         }

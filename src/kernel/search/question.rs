@@ -33,10 +33,10 @@ use std::sync::Arc;
 ///
 /// # Examples
 /// ```
-/// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+/// use ozols::{rank::exact::field::exact_field, search::{Search, diagram::Control, question::conditions::Conditions}};
 /// let gripper = ozols::built_in("gripper-10")?;
 /// let search = Search::new(exact_field(&gripper, 0)?, &gripper, Conditions::default())?;
-/// let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+/// let diagrams = search.build_diagrams(Control::NONE);
 /// let counts = search.count_variants(&diagrams.admissible, true);
 /// assert_eq!(counts.to_string(), "25761436"); // In the drawn pose.
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -15,7 +15,7 @@ use crate::search::answer::proven_cheapest::{UpTo, cost_of, up_to};
 use crate::search::diagram::completion::Missing;
 use crate::search::diagram::layer::CUT;
 use crate::search::diagram::redundancy_so_far::Limits;
-use crate::search::diagram::{self, Diagram, Omitted, Progress, Stop};
+use crate::search::diagram::{self, Control, Diagram, Omitted, Stop};
 use crate::search::question::Question;
 use crate::search::question::throughout::PoseOnly;
 use crate::search::solve::at_most::at_most;
@@ -76,25 +76,14 @@ fn is_empty(of: &Diagram) -> bool {
 }
 
 /// Builds the diagrams of a question.
-pub fn build_diagrams(
-    question: &Question,
-    cancelled: &(dyn Fn() -> bool + Sync),
-    progress: &mut (dyn FnMut(Progress) + Send),
-) -> Diagrams {
-    build_in(question, &variable_orders(question), cancelled, progress)
+pub fn build_diagrams(question: &Question, control: Control<'_>) -> Diagrams {
+    build_in(question, &variable_orders(question), control)
 }
 
 /// Builds the diagrams of a question in given orders.
-pub(crate) fn build_in(
-    question: &Question,
-    orders: &Orders,
-    cancelled: &(dyn Fn() -> bool + Sync),
-    progress: &mut (dyn FnMut(Progress) + Send),
-) -> Diagrams {
+pub(crate) fn build_in(question: &Question, orders: &Orders, control: Control<'_>) -> Diagrams {
     let limits = diagram_limits(question);
-    let mut of = |order: &[usize], wanted| {
-        build_whole(question, order, &limits, wanted, cancelled, progress)
-    };
+    let of = |order: &[usize], wanted| build_whole(question, order, &limits, wanted, control);
     let determinate = of(&orders.determinate, Wanted::Determinate);
     let order = &orders.admissible;
     let mut admissible = if one_diagram(question) {
@@ -105,17 +94,10 @@ pub(crate) fn build_in(
     } else {
         of(order, Wanted::Admissible)
     };
-    let cheapest = prove_cheapest(
-        question,
-        &mut admissible,
-        order,
-        &limits,
-        cancelled,
-        progress,
-    );
+    let cheapest = prove_cheapest(question, &mut admissible, order, &limits, control);
     let both = [&determinate, &admissible];
-    let estimates = estimate_counts(question, both, orders, &limits, cancelled);
-    let lasting = build_lasting(question, order, &admissible, cancelled, progress);
+    let estimates = estimate_counts(question, both, orders, &limits, control.cancelled);
+    let lasting = build_lasting(question, order, &admissible, control);
     Diagrams {
         determinate,
         admissible,
@@ -132,8 +114,7 @@ fn build_lasting(
     question: &Question,
     order: &[usize],
     at_the_pose: &Diagram,
-    cancelled: &(dyn Fn() -> bool + Sync),
-    progress: &mut (dyn FnMut(Progress) + Send),
+    control: Control<'_>,
 ) -> Result<Diagram, PoseOnly> {
     question.throughout.as_ref().map_err(PoseOnly::clone)?;
     if !is_whole(at_the_pose) {
@@ -152,8 +133,7 @@ fn build_lasting(
         order,
         &limits,
         Wanted::Lasting(Some(at_the_pose)),
-        cancelled,
-        progress,
+        control,
     );
     if is_whole(&built) {
         Ok(built)
@@ -171,46 +151,43 @@ fn build_whole(
     order: &[usize],
     limits: &Limits,
     wanted: Wanted<'_>,
-    cancelled: &(dyn Fn() -> bool + Sync),
-    progress: &mut (dyn FnMut(Progress) + Send),
+    control: Control<'_>,
 ) -> Diagram {
-    let within = |limits: &Limits, progress: &mut (dyn FnMut(Progress) + Send)| {
-        in_self_stress_space(question, order, limits, wanted, cancelled, progress)
-    };
+    let within = |limits: &Limits| in_self_stress_space(question, order, limits, wanted, control);
     if !question.conditions.counted {
         let few = Limits {
             nodes: CUT,
             ..limits.clone()
         };
-        let mut few = within(&few, progress);
+        let mut few = within(&few);
         if few.stop != Stop::Interrupted {
             few.stop = Stop::NotCounted;
         }
         return few;
     }
     if question.conditions.state.is_some() {
-        return within(limits, progress);
+        return within(limits);
     }
     let few = Limits {
         nodes: limits.nodes.min(AT_ONCE),
         ..limits.clone()
     };
-    let built = within(&few, progress);
+    let built = within(&few);
     if !built.stop.is_cut() {
         return built;
     }
-    let most = at_most(question, order, &few, wanted, cancelled);
+    let most = at_most(question, order, &few, wanted, control.cancelled);
     if most.is_some_and(|m| m.diagram.terminals.is_empty()) {
         return empty_diagram(question, order);
     }
     let halves = Halves::new(question, order, limits, wanted);
-    let whole = halves.and_then(|h| two_sided(&h, &question.space, cancelled, progress));
+    let whole = halves.and_then(|h| two_sided(&h, &question.space, control));
     let mut found = match whole {
         Some(whole) => whole,
-        None if few.nodes < limits.nodes => within(limits, progress),
+        None if few.nodes < limits.nodes => within(limits),
         None => built,
     };
-    if found.stop.is_cut() && cancelled() {
+    if found.stop.is_cut() && (control.cancelled)() {
         found.stop = Stop::Interrupted;
     }
     found
@@ -222,8 +199,7 @@ fn prove_cheapest(
     admissible: &mut Diagram,
     order: &[usize],
     limits: &Limits,
-    cancelled: &(dyn Fn() -> bool + Sync),
-    progress: &mut (dyn FnMut(Progress) + Send),
+    control: Control<'_>,
 ) -> Option<UpTo> {
     let most = BigUint::from(question.conditions.cheapest);
     let known = matches!(admissible.stop, Stop::Exhausted | Stop::Interrupted);
@@ -241,15 +217,8 @@ fn prove_cheapest(
     let known = cost_of(question, admissible, &most).flatten();
     let proof = up_to(question, &missing, &most, known, &mut |ceiling| {
         let root = root.clone();
-        diagram::build_layers(
-            space,
-            &stages,
-            limits,
-            root,
-            Omitted::Above(ceiling),
-            cancelled,
-            progress,
-        )
+        let omitted = Omitted::Above(ceiling);
+        diagram::build_layers(space, &stages, limits, root, omitted, control)
     });
     let cheapest = match proof.up_to {
         // Nothing had to be left out: what has no completion by dimensions made the diagram too large.

@@ -12,24 +12,23 @@ use super::solve::orders::{one_diagram, variable_orders};
 use super::solve::self_stress::{Wanted, diagram_limits};
 use super::solve::spanning_halves::Halves;
 use super::solve::two_sided::two_sided;
+use crate::search::diagram::Control;
 
 /// Returns the diagrams of a question that fit the limits, minimized: each as built from one end and from both ends. The second is `None`
 /// if more redundant constraints are allowed than every variant has. Those of variants that keep the motion throughout are built within the
 /// admissible ones from one end and not from the other, and the other way round.
 #[must_use]
 pub fn from_both_ends(question: &Question) -> Vec<[Option<Diagram>; 2]> {
-    let (orders, limits, never) = (variable_orders(question), diagram_limits(question), || {
-        false
-    });
+    let (orders, limits) = (variable_orders(question), diagram_limits(question));
     let mut both = vec![(&orders.determinate, Wanted::Determinate)];
     if !one_diagram(question) {
         both.push((&orders.admissible, Wanted::Admissible));
     }
     let of = |order: &[usize], [wanted, as_well]: [Wanted<'_>; 2]| {
-        let one = in_self_stress_space(question, order, &limits, wanted, &never, &mut |_| {});
+        let one = in_self_stress_space(question, order, &limits, wanted, Control::NONE);
         let halves = Halves::new(question, order, &limits, as_well);
         let space = &question.space;
-        let both = halves.and_then(|halves| two_sided(&halves, space, &never, &mut |_| {}));
+        let both = halves.and_then(|halves| two_sided(&halves, space, Control::NONE));
         (one.stop == Stop::Exhausted)
             .then(|| [Some(one), both].map(|d| d.map(|d| minimize_diagram(d.layers, d.terminals))))
     };

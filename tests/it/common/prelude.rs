@@ -48,7 +48,7 @@ pub(crate) use ozols::search::answer::k_best::Assignment;
 pub(crate) use ozols::search::answer::search_counts::SearchCounts;
 pub(crate) use ozols::search::check::brute::every_variant;
 pub(crate) use ozols::search::check::singular_values;
-pub(crate) use ozols::search::diagram::Stop;
+pub(crate) use ozols::search::diagram::{Control, Stop};
 pub(crate) use ozols::search::question::Question;
 pub(crate) use ozols::search::question::conditions::{InState, Symmetry};
 pub(crate) use ozols::search::solve::Diagrams;

@@ -190,7 +190,7 @@ fn a_search_of_halves_stops_when_it_is_told_to() {
     let within = |most: usize| {
         let asked = std::sync::atomic::AtomicUsize::new(0);
         let cancelled = || asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) >= most;
-        let d = search.build_diagrams(&cancelled, &mut |_| {});
+        let d = search.build_diagrams(Control::cancelled_by(&cancelled));
         (d.stop_reason(), asked.into_inner())
     };
     let (whole, all) = within(usize::MAX);

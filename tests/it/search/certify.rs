@@ -28,7 +28,7 @@ fn compared([one, other]: [&str; 2]) -> Result<PrimeCheck, String> {
     };
     let (first, second) = (over(one, 0), over(other, 1));
     let searches: [&Question; 2] = [&first, &second];
-    let (a, b) = build_both(searches, &|| false, &mut |_| {});
+    let (a, b) = build_both(searches, Control::NONE);
     let counts = [(&first, &a), (&second, &b)].map(|(s, d)| SearchCounts::of_diagrams(s, d));
     let by_counts = compare_counts(searches, counts.each_ref());
     let whole = compare_primes(searches, [&a, &b]);
@@ -88,7 +88,7 @@ fn singular_values_agree_on_the_best_of_every_built_in_mechanism() {
             if max_redundant > 0 && search.size() > 1500u32.into() {
                 continue;
             }
-            let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+            let diagrams = search.build_diagrams(Control::NONE);
             let mut list: Vec<_> = search.sample_variants(&diagrams, 1).take(10).collect();
             list.extend(search.cheapest_variants(&diagrams, 10));
             for c in singular_values::certify_variants(&search, list, true, None, &|| false) {

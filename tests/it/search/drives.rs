@@ -15,7 +15,7 @@ fn search(m: &Mechanism, drives: Drives) -> Result<Search, SearchError> {
 /// Returns how many variants are admissible, counted on the diagram and one by one.
 fn admissible(m: &Mechanism, drives: Drives) -> u64 {
     let search = search(m, drives).unwrap();
-    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let diagrams = search.build_diagrams(Control::NONE);
     let found = search.count_variants(&diagrams.admissible, true);
     if search.size() <= 4096u32.into() {
         assert_eq!(
@@ -80,7 +80,7 @@ fn a_bush_in_place_of_a_lead_screw_is_no_redesign_and_costs_no_less_than_nothing
         [2, 1]
     );
     let search = search(&m, Drives::Kept).unwrap();
-    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let diagrams = search.build_diagrams(Control::NONE);
     let nut = m.joint_named("nut").unwrap();
     let of = |j: JointId| {
         search
@@ -119,7 +119,7 @@ fn independent_drives_are_as_many_as_the_motions_that_they_decide() {
     // By hand: the slide keeps the one motion of the beam, the slot gives it a turn.
     for (drives, mobility) in [(Drives::Kept, 1), (Drives::Independent, 2)] {
         let search = search(&m, drives).unwrap();
-        let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+        let diagrams = search.build_diagrams(Control::NONE);
         let found = search.count_variants(&diagrams.admissible, true);
         let by_mobility: Vec<_> = found.by_mobility.into_iter().collect();
         assert_eq!(by_mobility, [(mobility, 1u8.into())]);
@@ -129,7 +129,7 @@ fn independent_drives_are_as_many_as_the_motions_that_they_decide() {
     let mut one = m;
     one.edit().joints[1].drive = false;
     let search = search(&one, Drives::Independent).unwrap();
-    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let diagrams = search.build_diagrams(Control::NONE);
     let found: Vec<_> = search.cheapest_variants(&diagrams, 5).collect();
     assert_eq!((found.len(), search.mobility(found[0].key)), (1, 1));
 }

@@ -15,7 +15,7 @@ fn steps_of_a_list_grow_no_faster_than_its_length_and_its_logarithm() {
         let m = built_in(name);
         let exact = exact_field(&m, 0).unwrap();
         let question = Question::new(exact, &m, Conditions::default()).unwrap();
-        let found = build_diagrams(&question, &|| false, &mut |_| {});
+        let found = build_diagrams(&question, Control::NONE);
         for walk in walks {
             let lists = [10, 100, 1_000, 10_000].map(|k| walk(&question, &found, k));
             for pair in lists.windows(2) {

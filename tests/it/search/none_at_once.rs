@@ -42,7 +42,11 @@ fn what_the_plane_decides_takes_no_step() {
             asked.fetch_add(1, Ordering::Relaxed);
             false
         };
-        let found = search.build_diagrams(&count, &mut |p| panic!("built {p:?}"));
+        let control = Control {
+            cancelled: &count,
+            progress: &|p| panic!("built {p:?}"),
+        };
+        let found = search.build_diagrams(control);
         assert_eq!(found.stop_reason(), Stop::Exhausted);
         for d in [&found.determinate, &found.admissible] {
             assert!(search.count_variants(d, false).total.is_zero());

@@ -28,7 +28,7 @@ fn shuffled(text: &str, random: &mut ChaCha8Rng) -> String {
 fn searched(text: &str) -> Option<([String; 2], [usize; 2])> {
     let m = read(text);
     let search = Search::new(exact_field(&m, 0).ok()?, m, Conditions::default()).ok()?;
-    let d = search.build_diagrams(&|| false, &mut |_| {});
+    let d = search.build_diagrams(Control::NONE);
     let counts = [
         search.count_variants(&d.determinate, false),
         search.count_variants(&d.admissible, true),

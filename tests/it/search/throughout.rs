@@ -23,7 +23,7 @@ fn search(m: &Mechanism, nth: usize, symmetry: Symmetry) -> Search {
 fn counted(m: &Mechanism) -> [u64; 2] {
     let both = [0, 1].map(|nth| {
         let search = search(m, nth, Symmetry::All);
-        let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+        let diagrams = search.build_diagrams(Control::NONE);
         let lasting = diagrams.lasting.as_ref().unwrap();
         let here = search.count_variants(&diagrams.admissible, true);
         let lasting = search.count_variants(lasting, true);
@@ -46,7 +46,7 @@ fn counted(m: &Mechanism) -> [u64; 2] {
 /// Asserts that just those variants last whose figures are the same in other poses.
 fn assert_as_in_poses(m: &Mechanism, poses: usize) {
     let search = search(m, 0, Symmetry::All);
-    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let diagrams = search.build_diagrams(Control::NONE);
     let lasting: BTreeSet<Vec<usize>> = search
         .cheapest_variants(&diagrams, usize::MAX / 4)
         .map(|v| v.choices)
@@ -117,7 +117,7 @@ fn every_choice(search: &Search) -> impl Iterator<Item = Vec<usize>> {
 fn count_beside(m: &Mechanism) -> u64 {
     let both = [0, 1].map(|nth| {
         let search = search(m, nth, Symmetry::All);
-        let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+        let diagrams = search.build_diagrams(Control::NONE);
         let found = count_everywhere(&search, lasting_of(&diagrams));
         u64::try_from(found.unwrap()).unwrap()
     });
@@ -239,7 +239,7 @@ proptest! {
         prop_assume!(search.pose_only().is_none() && search.size() <= 256u32.into());
         counted(&m);
         assert_as_in_poses(&m, 3);
-        let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+        let diagrams = search.build_diagrams(Control::NONE);
         if let (Some(series), Some(poses)) = (count_everywhere(&search, lasting_of(&diagrams)), count_in_poses(&m)) {
             prop_assert_eq!(series, poses.into());
         }

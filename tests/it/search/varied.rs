@@ -206,7 +206,7 @@ fn over_two_primes(
 ) -> Result<(Counts, Counts, Vec<Choice>), TestCaseError> {
     let over = |nth| Search::new(exact_field(m, nth).unwrap(), m, request.clone()).unwrap();
     let (search, twin) = (over(0), over(1));
-    let (diagrams, second) = build_both([&search, &twin], &|| false, &mut |_| {});
+    let (diagrams, second) = build_both([&search, &twin], Control::NONE);
     let check = compare_primes([&search, &twin], [&diagrams, &second]);
     prop_assert!(check.unwrap().agree);
     let determinate = search.count_variants(&diagrams.determinate, false);

@@ -14,7 +14,7 @@ use crate::search::Search;
 use crate::search::answer::by_tally::Places;
 use crate::search::answer::k_best::{Assignment, least_from};
 use crate::search::answer::keys::Key;
-use crate::search::diagram::{DEAD, Diagram};
+use crate::search::diagram::{DEAD, Diagram, ShouldCancel};
 use rayon::prelude::*;
 
 /// Branches that are searched at a time.
@@ -57,7 +57,7 @@ struct BranchAndBound<'w> {
     /// Variants of the pool, the cheapest, which are scored.
     pooled: usize,
     top: usize,
-    stop: &'w (dyn Fn() -> bool + Sync),
+    stop: ShouldCancel<'w>,
 }
 
 /// A thread's own.
@@ -95,7 +95,7 @@ pub(in crate::score) fn prove_best(
     diagram: &Diagram,
     pool: &mut RankedPool,
     top: usize,
-    stop: &(dyn Fn() -> bool + Sync),
+    stop: ShouldCancel<'_>,
     progress: &mut dyn FnMut(usize, usize),
 ) {
     let (search, ranking) = (evaluator.search, pool.ranking.clone());

@@ -7,7 +7,7 @@ use crate::score::outcome::ranking::{Ranked, RankedPool, Ranker};
 use crate::score::request::{List, Request};
 use crate::search::Search;
 use crate::search::answer::counts;
-use crate::search::diagram::Stop;
+use crate::search::diagram::{ShouldCancel, Stop};
 use crate::search::question::conditions::Symmetry;
 use crate::search::solve::Diagrams;
 
@@ -20,7 +20,7 @@ pub(in crate::score) fn rank_variants(
     diagrams: &Diagrams,
     request: &Request,
     ranking: &Ranking,
-    should_cancel: &(dyn Fn() -> bool + Sync),
+    should_cancel: ShouldCancel<'_>,
     progress: &mut dyn FnMut(usize, usize),
 ) -> Result<Option<RankedPool>, ScoreError> {
     let List::Top(top) = request.list else {

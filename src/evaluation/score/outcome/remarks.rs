@@ -4,6 +4,7 @@ use crate::score::outcome::Outcome;
 use crate::score::outcome::symmetric::SymmetricBest;
 use crate::score::request::{Inserts, JointOptions, Request};
 use crate::search::answer::why_none::{Hopeless, Relaxation, find_obstacles, find_relaxations};
+use crate::search::diagram::ShouldCancel;
 use crate::search::question::conditions::SearchError;
 use crate::search::question::kept::Drives;
 use num_bigint::BigUint;
@@ -78,10 +79,7 @@ impl Outcome {
     /// assert!(!outcome.make_remarks(&|| false)?.eased.is_empty()); // More changes would do.
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn make_remarks(
-        &self,
-        cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Remarks, SearchError> {
+    pub fn make_remarks(&self, cancelled: ShouldCancel<'_>) -> Result<Remarks, SearchError> {
         let (search, in_pose) = (&self.search, &self.admissible.total);
         let none = in_pose.is_zero() && !self.admissible_may_be_more();
         let (mut eased, mut hopeless) = (Vec::new(), Hopeless::default());

@@ -6,7 +6,7 @@ use crate::score::outcome::Outcome;
 use crate::score::request::List;
 use crate::search::Search;
 use crate::search::answer::k_best::Assignment;
-use crate::search::diagram::Stop;
+use crate::search::diagram::{Control, ShouldCancel, Stop};
 use crate::search::question::conditions::{Conditions, SearchError, Symmetry};
 use std::collections::BTreeSet;
 
@@ -65,7 +65,7 @@ impl Outcome {
     /// ```
     pub fn symmetric_best(
         &self,
-        should_cancel: &(dyn Fn() -> bool + Sync),
+        should_cancel: ShouldCancel<'_>,
     ) -> Result<Option<SymmetricBest>, SearchError> {
         let asked = &self.search.conditions;
         let plain = asked.symmetry == Symmetry::All
@@ -102,7 +102,7 @@ impl Outcome {
                 if left == 0 && symmetric.len() == 1 {
                     odd = odd_freedoms(&search)?;
                 }
-                let diagrams = search.build_diagrams(should_cancel, &mut |_| {});
+                let diagrams = search.build_diagrams(Control::cancelled_by(should_cancel));
                 let just = |v: &Assignment| v.key.internal() == left;
                 let found = (diagrams.admissible.stop == Stop::Exhausted)
                     .then(|| search.cheapest_variants(&diagrams, LOOKED_AT).find(just));

@@ -34,7 +34,7 @@ impl<C: Count> Tally<C> {
         for l in (0..diagram.layers.len()).rev() {
             let bound = bound.map(|b| &b[l][..]);
             let (here, named, used) =
-                layer_tables(diagram, steps, l, bound, &tables, &numbers, left)?;
+                layer_tables(diagram, steps, l, bound, (&tables, &numbers), left)?;
             left = left.saturating_sub(used);
             out.push(std::mem::replace(&mut tables, here));
             numbers = named;
@@ -93,7 +93,7 @@ pub(crate) fn totals_by_key<C: Count>(
         if l < diagram.layers.len() {
             let left = bytes.saturating_sub(held);
             (tables, numbers, held) =
-                layer_tables(diagram, steps, l, None, &tables, &numbers, left)?;
+                layer_tables(diagram, steps, l, None, (&tables, &numbers), left)?;
         }
         if let [part] = &mut tables[..] {
             whole = multiply_tables(&whole, part, bytes)?;
@@ -243,8 +243,7 @@ fn layer_tables<C: Count>(
     steps: &Steps,
     l: usize,
     bound: Option<&[u64]>,
-    below: &[Table<C>],
-    numbers: &Numbers,
+    (below, numbers): (&[Table<C>], &Numbers),
     bytes: usize,
 ) -> Option<(Vec<Table<C>>, Numbers, usize)> {
     let layer = &diagram.layers[l];

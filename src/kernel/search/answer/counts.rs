@@ -219,11 +219,11 @@ pub(in crate::search) fn count_total(
 ///
 /// # Examples
 /// ```
-/// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+/// use ozols::{rank::exact::field::exact_field, search::{Search, diagram::Control, question::conditions::Conditions}};
 /// use ozols::search::answer::counts::counts_by_cost;
 /// let four_bar = ozols::built_in("four-bar")?;
 /// let search = Search::new(exact_field(&four_bar, 0)?, &four_bar, Conditions::default())?;
-/// let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+/// let diagrams = search.build_diagrams(Control::NONE);
 /// let by_cost = counts_by_cost(&search, &diagrams.admissible).expect("it is small");
 /// assert_eq!(by_cost.into_values().sum::<num_bigint::BigUint>().to_string(), "14");
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -10,7 +10,7 @@
 use crate::search::answer::by_tally::sample_of;
 use crate::search::answer::counts::count_total;
 use crate::search::diagram::redundancy_so_far::Limits;
-use crate::search::diagram::{Diagram, Stop};
+use crate::search::diagram::{Diagram, ShouldCancel, Stop};
 use crate::search::question::Question;
 use crate::search::solve::at_most::{AtMost, at_most};
 use crate::search::solve::orders::Orders;
@@ -94,7 +94,7 @@ fn estimate_count(
     of: &AtMost,
     seed: u64,
     filter: bool,
-    cancelled: &(dyn Fn() -> bool + Sync),
+    cancelled: ShouldCancel<'_>,
 ) -> Option<Estimate> {
     let at_most = count_total(question, &of.diagram, filter);
     let all = at_most.to_f64().filter(|x| x.is_finite())?;
@@ -193,7 +193,7 @@ pub(in crate::search) fn estimate_counts(
     [determinate, admissible]: [&Diagram; 2],
     orders: &Orders,
     limits: &Limits,
-    cancelled: &(dyn Fn() -> bool + Sync),
+    cancelled: ShouldCancel<'_>,
 ) -> [Option<Estimate>; 2] {
     let seed = match question.conditions.estimate {
         Some(seed) if determinate.stop.combine_with(admissible.stop).is_cut() => seed,

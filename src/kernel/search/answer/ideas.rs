@@ -66,10 +66,10 @@ impl Question {
     ///
     /// # Examples
     /// ```
-    /// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+    /// use ozols::{rank::exact::field::exact_field, search::{Search, diagram::Control, question::conditions::Conditions}};
     /// let four_bar = ozols::built_in("four-bar")?;
     /// let search = Search::new(exact_field(&four_bar, 0)?, &four_bar, Conditions::default())?;
-    /// let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    /// let diagrams = search.build_diagrams(Control::NONE);
     /// let ideas = search.list_ideas(&diagrams, 3);
     /// // The first adds the three freedoms that remove σ = 3, and may add them in six ways.
     /// assert_eq!((ideas[0].first.key.freedoms(), ideas[0].variants.to_string().as_str()), (4 + 3, "6"));

@@ -1,7 +1,7 @@
 //! The counts of a search: determinate variants, admissible ones, and those that keep the motion throughout.
 
 use crate::search::answer::counts::{Counts, count_orbits};
-use crate::search::diagram::{Diagram, Stop};
+use crate::search::diagram::{Control, Diagram, ShouldCancel, Stop};
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, SearchError, Symmetry};
 use crate::search::solve::{Diagrams, build_diagrams};
@@ -51,7 +51,7 @@ impl SearchCounts {
 pub fn orbit_counts(
     question: &Question,
     mut all: SearchCounts,
-    cancelled: &(dyn Fn() -> bool + Sync),
+    cancelled: ShouldCancel<'_>,
 ) -> Result<(SearchCounts, [Stop; 2]), SearchError> {
     let conditions = Conditions {
         symmetry: Symmetry::SymmetricOnly,
@@ -64,7 +64,7 @@ pub fn orbit_counts(
         question.mechanism.clone(),
         conditions,
     )?;
-    let diagrams = build_diagrams(&symmetric, cancelled, &mut |_| {});
+    let diagrams = build_diagrams(&symmetric, Control::cancelled_by(cancelled));
     let order = question.mechanism.search.symmetry_order();
     let kept = SearchCounts::of_diagrams(&symmetric, &diagrams);
     let orbits = |all: &mut Counts, kept: &Counts| {

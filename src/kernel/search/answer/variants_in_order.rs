@@ -14,10 +14,10 @@ impl Question {
     ///
     /// # Examples
     /// ```
-    /// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+    /// use ozols::{rank::exact::field::exact_field, search::{Search, diagram::Control, question::conditions::Conditions}};
     /// let four_bar = ozols::built_in("four-bar")?;
     /// let search = Search::new(exact_field(&four_bar, 0)?, &four_bar, Conditions::default())?;
-    /// let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    /// let diagrams = search.build_diagrams(Control::NONE);
     /// let found: Vec<_> = search.cheapest_variants(&diagrams, 5).collect();
     /// assert!(found.windows(2).all(|w| w[0].key.cost() <= w[1].key.cost()));
     /// assert!(found.iter().all(|v| v.key.internal() == 0)); // σ = 0
@@ -41,10 +41,10 @@ impl Question {
     ///
     /// # Examples
     /// ```
-    /// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+    /// use ozols::{rank::exact::field::exact_field, search::{Search, diagram::Control, question::conditions::Conditions}};
     /// let four_bar = ozols::built_in("four-bar")?;
     /// let search = Search::new(exact_field(&four_bar, 0)?, &four_bar, Conditions::default())?;
-    /// let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    /// let diagrams = search.build_diagrams(Control::NONE);
     /// let drawn = || search.sample_variants(&diagrams, 7).take(3).collect::<Vec<_>>();
     /// assert_eq!(drawn(), drawn()); // The seed decides.
     /// # Ok::<(), Box<dyn std::error::Error>>(())

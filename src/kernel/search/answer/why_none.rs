@@ -6,7 +6,7 @@ use crate::model::mechanism::{JointId, StateId};
 use crate::redundancy::motion::motion_basis;
 use crate::search::answer::counts::Counts;
 use crate::search::check::brute::Matrices;
-use crate::search::diagram::Stop;
+use crate::search::diagram::{Control, ShouldCancel, Stop};
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, InState, SearchError};
 use crate::search::question::kept::Drives;
@@ -87,7 +87,7 @@ pub fn find_obstacles(question: &Question) -> Result<Hopeless, ExactError> {
 pub fn find_relaxations(
     question: &Question,
     nodes: usize,
-    cancelled: &(dyn Fn() -> bool + Sync),
+    cancelled: ShouldCancel<'_>,
 ) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
     let conditions = &question.conditions;
     let easing = Easing {
@@ -154,7 +154,7 @@ struct Easing<'a> {
     question: &'a Question,
     /// Maximum number of nodes of a diagram.
     nodes: usize,
-    cancelled: &'a (dyn Fn() -> bool + Sync),
+    cancelled: ShouldCancel<'a>,
 }
 
 impl Easing<'_> {
@@ -166,7 +166,7 @@ impl Easing<'_> {
         (eased.cheapest, eased.counted, eased.estimate) = (0, true, None);
         change(&mut eased);
         let other = Question::new(question.exact.clone(), question.mechanism.clone(), eased)?;
-        let built = build_diagrams(&other, self.cancelled, &mut |_| {});
+        let built = build_diagrams(&other, Control::cancelled_by(self.cancelled));
         let whole = built.stop_reason() == Stop::Exhausted;
         Ok(whole.then(|| other.count_variants(built.listed_diagram(), true)))
     }

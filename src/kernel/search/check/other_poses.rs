@@ -17,6 +17,7 @@ use crate::motion::pose::{FLAT, Pose};
 use crate::rank::finite::local_dimension::null_space_of;
 use crate::rank::numeric::scaling::rank_of_values;
 use crate::search::answer::k_best::Assignment;
+use crate::search::diagram::ShouldCancel;
 use crate::search::question::Question;
 use crate::search::question::kept::driven_in_variant;
 use chacha20::ChaCha8Rng;
@@ -94,7 +95,7 @@ pub fn reach_poses(
     question: &Question,
     count: usize,
     seed: u64,
-    cancelled: &(dyn Fn() -> bool + Sync),
+    cancelled: ShouldCancel<'_>,
 ) -> Result<Stroke, ExactError> {
     let pose = Pose::of_file(&question.mechanism, StateId::FREE)?;
     let span = null_space_of(&pose);

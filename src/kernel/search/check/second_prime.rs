@@ -6,7 +6,7 @@
 //! count, every list and every sample drawn from them is equal too.
 
 use crate::search::answer::search_counts::SearchCounts;
-use crate::search::diagram::{Diagram, Progress, Stop};
+use crate::search::diagram::{Control, Diagram, Stop};
 use crate::search::question::Question;
 use crate::search::solve::Diagrams;
 use crate::search::solve::build_in;
@@ -41,16 +41,12 @@ pub struct Disagreement {
 }
 
 /// Builds the diagrams of a search and of its twin over another prime, in parallel.
-pub fn build_both(
-    questions: [&Question; 2],
-    cancelled: &(dyn Fn() -> bool + Sync),
-    progress: &mut (dyn FnMut(Progress) + Send),
-) -> (Diagrams, Diagrams) {
+pub fn build_both(questions: [&Question; 2], control: Control<'_>) -> (Diagrams, Diagrams) {
     let [first, second] = questions;
     let orders = variable_orders(first);
     rayon::join(
-        || build_in(first, &orders, cancelled, progress),
-        || build_in(second, &orders, cancelled, &mut |_| {}),
+        || build_in(first, &orders, control),
+        || build_in(second, &orders, Control::cancelled_by(control.cancelled)),
     )
 }
 

@@ -16,6 +16,7 @@ use crate::search::check::other_poses::over_stroke;
 use crate::search::check::other_poses::{OverStroke, Stroke};
 use crate::search::check::variant_mechanism::lock_links;
 use crate::search::check::variant_mechanism::realize_variant;
+use crate::search::diagram::ShouldCancel;
 use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::question::Question;
 use crate::search::question::kept::driven_in_variant;
@@ -172,7 +173,7 @@ pub fn certify_variants(
     variants: Vec<Assignment>,
     opinions: bool,
     stroke: Option<&Stroke>,
-    cancelled: &(dyn Fn() -> bool + Sync),
+    cancelled: ShouldCancel<'_>,
 ) -> Vec<Certified> {
     let one = |variant: Assignment| {
         let m = realize_variant(question, &variant.choices);

@@ -6,6 +6,7 @@ use crate::search::diagram::subspaces::{Subspaces, hash_words};
 use crate::search::diagram::transition::Steps;
 use hashbrown::HashTable;
 use std::collections::TryReserveError;
+use std::fmt;
 
 /// A missing edge: the choice leads nowhere admissible.
 pub const DEAD: u32 = u32::MAX;
@@ -224,6 +225,38 @@ impl Merge {
     pub(in crate::search) fn finish(mut self) -> Self {
         self.next.drop_unused_spaces();
         self
+    }
+}
+
+/// Returns whether to end early, with what is found so far.
+pub type ShouldCancel<'a> = &'a (dyn Fn() -> bool + Sync);
+
+/// How a search is ended early, and who hears how far it has come.
+#[derive(Clone, Copy)]
+pub struct Control<'a> {
+    /// Returns whether to end early.
+    pub cancelled: ShouldCancel<'a>,
+    /// Receives the progress.
+    pub progress: &'a (dyn Fn(Progress) + Sync),
+}
+
+impl<'a> Control<'a> {
+    /// The control of a search that runs to its end, and that nobody watches.
+    pub const NONE: Control<'static> = Control::cancelled_by(&|| false);
+
+    /// Returns the control of a search that nobody watches.
+    #[must_use]
+    pub const fn cancelled_by(cancelled: ShouldCancel<'a>) -> Control<'a> {
+        Control {
+            cancelled,
+            progress: &|_| {},
+        }
+    }
+}
+
+impl fmt::Debug for Control<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Control").finish_non_exhaustive()
     }
 }
 

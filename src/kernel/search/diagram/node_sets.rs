@@ -1,5 +1,6 @@
 //! Sets of the nodes of a layer, and of the nodes of one half of a diagram that complete those of the other.
 
+use crate::search::diagram::ShouldCancel;
 use crate::search::diagram::layer::DEAD;
 use hashbrown::HashMap;
 use rayon::prelude::*;
@@ -67,7 +68,7 @@ const BATCH: usize = 512;
 pub(in crate::search) fn completing_sets(
     nodes: usize,
     completing: impl Fn(usize) -> Set + Sync,
-    cancelled: &(dyn Fn() -> bool + Sync),
+    cancelled: ShouldCancel<'_>,
 ) -> Option<Vec<Set>> {
     let mut sets = Vec::with_capacity(nodes);
     for start in (0..nodes).step_by(BATCH) {

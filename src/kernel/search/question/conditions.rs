@@ -54,11 +54,11 @@ impl InState {
 ///
 /// # Examples
 /// ```
-/// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+/// use ozols::{rank::exact::field::exact_field, search::{Search, diagram::Control, question::conditions::Conditions}};
 /// let four_bar = ozols::built_in("four-bar")?;
 /// let few = Conditions { max_changes: Some(1), ..Conditions::default() };
 /// let search = Search::new(exact_field(&four_bar, 0)?, &four_bar, few)?;
-/// let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+/// let diagrams = search.build_diagrams(Control::NONE);
 /// assert_eq!(search.cheapest_variants(&diagrams, 9).count(), 0); // σ = 3 needs more changes.
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

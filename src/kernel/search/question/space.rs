@@ -101,7 +101,7 @@ impl Space {
         for (joints, external) in groups {
             let per_joint: Vec<Vec<Choice>> = joints
                 .iter()
-                .map(|&j| joint_choices(exact, &motion, mechanism, j, external, state, costs))
+                .map(|&j| joint_choices(exact, &motion, mechanism, (j, external), state, costs))
                 .collect::<Result<_, _>>()?;
             let mut merged = per_joint[0].clone();
             for other in &per_joint[1..] {
@@ -137,12 +137,12 @@ impl Space {
     }
 }
 
+/// Returns what may be chosen at a joint, which is `external` if the searched state adds it. The present joint comes first.
 fn joint_choices(
     exact: &ExactField,
     motion: &MotionSpace<Residue>,
     mechanism: &Mechanism,
-    id: JointId,
-    external: bool,
+    (id, external): (JointId, bool),
     state: Option<StateId>,
     costs: &CostTable,
 ) -> Result<Vec<Choice>, ExactError> {

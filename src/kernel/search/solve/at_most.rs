@@ -10,7 +10,7 @@ use crate::search::diagram::reduced_rows::Arithmetic;
 use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Spent};
 use crate::search::diagram::stage::Stage;
 use crate::search::diagram::transition::Worker;
-use crate::search::diagram::{DEAD, Diagram, Layer};
+use crate::search::diagram::{DEAD, Diagram, Layer, ShouldCancel};
 use crate::search::question::Question;
 use crate::search::reduce::lifetimes::Lifetime;
 use crate::search::reduce::self_stress_space::SelfStressSpace;
@@ -47,7 +47,7 @@ pub(in crate::search) fn at_most(
     order: &[usize],
     limits: &Limits,
     wanted: Wanted<'_>,
-    cancelled: &(dyn Fn() -> bool + Sync),
+    cancelled: ShouldCancel<'_>,
 ) -> Option<AtMost> {
     let field = question.exact.field();
     let space = self_stress_space(question, order, wanted);

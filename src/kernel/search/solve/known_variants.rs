@@ -6,7 +6,7 @@
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
 use crate::search::diagram::stage::Stage;
-use crate::search::diagram::{DEAD, Diagram, Expanded, Layer, Stop, next_layer};
+use crate::search::diagram::{Control, DEAD, Diagram, Expanded, Layer, Stop, next_layer};
 use crate::search::question::Question;
 use crate::search::question::space::{Choice, Space};
 use crate::search::solve::self_stress::{Wanted, diagram_limits};
@@ -128,8 +128,7 @@ impl End {
             &from,
             Merge::new(room, Stop::Exhausted, wanted.len(), 1),
             |_, _, _| false,
-            &|| false,
-            &mut |_| {},
+            Control::NONE,
         );
         let step = |(edge, node): (usize, usize)| {
             let to = merge.edges[edge];

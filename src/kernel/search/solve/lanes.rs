@@ -18,7 +18,7 @@ use crate::search::diagram::minimize::minimize_diagram;
 use crate::search::diagram::redundancy_so_far::{Limits, Role, Spent};
 use crate::search::diagram::stage::{Columns, LaneStage, Stage};
 use crate::search::diagram::within::Within;
-use crate::search::diagram::{self, Diagram, Omitted, Progress};
+use crate::search::diagram::{self, Control, Diagram, Omitted};
 use crate::search::question::Question;
 use crate::search::question::conditions::InState;
 use crate::search::question::space::{Choice, Face, Variable};
@@ -35,8 +35,7 @@ pub(in crate::search) fn in_self_stress_space(
     order: &[usize],
     limits: &Limits,
     wanted: Wanted<'_>,
-    cancelled: &(dyn Fn() -> bool + Sync),
-    progress: &mut (dyn FnMut(Progress) + Send),
+    control: Control<'_>,
 ) -> Diagram {
     let Lanes { stages, root } = Lanes::new(question, order, limits, wanted);
     if !root.is_within(limits) {
@@ -46,7 +45,7 @@ pub(in crate::search) fn in_self_stress_space(
     let omitted = wanted.known().map_or(Omitted::Nothing, |known| {
         Omitted::Outside(Within::new(&known.layers, known.terminals.len(), true))
     });
-    let built = diagram::build_layers(space, &stages, limits, root, omitted, cancelled, progress);
+    let built = diagram::build_layers(space, &stages, limits, root, omitted, control);
     let stop = built.stop;
     let smallest = minimize_diagram(built.layers, built.terminals);
     Diagram { stop, ..smallest }
@@ -309,6 +308,7 @@ mod tests {
     use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom, JointType};
     use crate::model::mechanism::{JointId, Mechanism};
     use crate::rank::exact::field::exact_field;
+    use crate::search::diagram::Control;
     use crate::search::question::Question;
     use crate::search::question::conditions::{Conditions, SearchError};
     use crate::search::solve::build_diagrams;
@@ -324,7 +324,7 @@ mod tests {
 
     /// How many ends the diagrams of determinate and of admissible variants have.
     fn ends(m: &Mechanism, max_redundant: u32) -> [usize; 2] {
-        let built = build_diagrams(&question(m, max_redundant).unwrap(), &|| false, &mut |_| {});
+        let built = build_diagrams(&question(m, max_redundant).unwrap(), Control::NONE);
         [&built.determinate, &built.admissible].map(|d| d.terminals.len())
     }
 

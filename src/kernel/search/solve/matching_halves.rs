@@ -7,8 +7,8 @@
 
 use crate::linalg::echelon::{linear_combination, linear_relations};
 use crate::linalg::modp::{Field, Residue};
-use crate::search::diagram::DEAD;
 use crate::search::diagram::node_sets::{Numbered, Set, add_node, empty_set};
+use crate::search::diagram::{DEAD, ShouldCancel};
 use hashbrown::HashMap;
 use rayon::prelude::*;
 
@@ -82,7 +82,7 @@ pub(super) fn match_halves(
     width: usize,
     [front, back]: &[Grouped; 2],
     bytes: usize,
-    cancelled: &(dyn Fn() -> bool + Sync),
+    cancelled: ShouldCancel<'_>,
 ) -> Option<(Vec<u32>, Vec<Set>)> {
     let mut of_node = vec![DEAD; front.nodes];
     let mut numbered = Numbered::default();

@@ -14,7 +14,7 @@ use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::diagram::stage::Stage;
 use crate::search::diagram::within::Within;
-use crate::search::diagram::{DEAD, Diagram};
+use crate::search::diagram::{DEAD, Diagram, ShouldCancel};
 use crate::search::question::Question;
 use crate::search::reduce::lifetimes::Lifetime;
 use crate::search::reduce::self_stress_space::SelfStressSpace;
@@ -131,7 +131,7 @@ impl<'a> Halves<'a> {
         &self,
         part: usize,
         halves: &JoinedSides<'_>,
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: ShouldCancel<'_>,
     ) -> Option<(Vec<u32>, Vec<Set>)> {
         let packed = self.meeting_rows(part, halves.stages);
         let width = packed.width();

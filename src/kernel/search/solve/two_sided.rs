@@ -18,7 +18,7 @@ use crate::search::diagram::node_sets::{
 use crate::search::diagram::redundancy_so_far::{Redundancy, Spent};
 use crate::search::diagram::stage::Stage;
 use crate::search::diagram::within::Within;
-use crate::search::diagram::{DEAD, Diagram, Expanded, Layer, Progress, Stop, next_layer};
+use crate::search::diagram::{Control, DEAD, Diagram, Expanded, Layer, Progress, Stop, next_layer};
 use crate::search::question::space::Space;
 use crate::search::solve::spanning_halves::{Halves, JoinedSides};
 use rayon::prelude::*;
@@ -80,21 +80,24 @@ fn group_nodes(front: &Side<'_>, back: &Side<'_>) -> Option<Vec<[Vec<usize>; 2]>
 pub(in crate::search) fn two_sided(
     question: &Halves<'_>,
     space: &Space,
-    cancelled: &(dyn Fn() -> bool + Sync),
-    progress: &mut (dyn FnMut(Progress) + Send),
+    control: Control<'_>,
 ) -> Option<Diagram> {
     let of = question.parts.iter().map(|[front, _]| front.len()).sum();
     let (mut parts, mut done, mut total) = (Vec::new(), 0, 1);
     for ends in &question.parts {
-        let told = &mut |now: Progress| {
-            progress(Progress {
+        let progress = |now: Progress| {
+            (control.progress)(Progress {
                 done: done + now.done,
                 of,
                 nodes: total + now.nodes,
                 ..now
             });
         };
-        let halves = build_halves(question, space, (parts.len(), ends), cancelled, told)?;
+        let own = Control {
+            progress: &progress,
+            ..control
+        };
+        let halves = build_halves(question, space, (parts.len(), ends), own)?;
         done += ends[0].len();
         total += halves.iter().map(|side| side.nodes.len()).sum::<usize>();
         parts.push(halves);
@@ -116,7 +119,7 @@ pub(in crate::search) fn two_sided(
             }),
             bytes: left / 4,
         };
-        let (of_front, sets) = question.join_halves(part, &sides, cancelled)?;
+        let (of_front, sets) = question.join_halves(part, &sides, control.cancelled)?;
         let (back, sets) = without_twins(back.layers, sets);
         let found = put_together(front.layers, &of_front, &back, sets, most)?;
         total += found.iter().map(|l| l.nodes).sum::<usize>();
@@ -131,13 +134,12 @@ pub(in crate::search) fn two_sided(
     Some(minimize_diagram(layers, vec![end; terminals]))
 }
 
-/// Builds the halves of a part, and reports the progress to `told`.
+/// Builds the halves of a part.
 fn build_halves<'a>(
     question: &'a Halves<'_>,
     space: &Space,
     (part, ends): (usize, &'a [Vec<Stage<'a>>; 2]),
-    cancelled: &(dyn Fn() -> bool + Sync),
-    told: &mut dyn FnMut(Progress),
+    control: Control<'_>,
 ) -> Option<[Side<'a>; 2]> {
     let limits = question.limits;
     let known = question.within_known(part);
@@ -156,8 +158,14 @@ fn build_halves<'a>(
         let bytes = limits
             .bytes
             .checked_sub(side.held_bytes() + other.held_bytes())?;
-        let told = &mut |layer: usize| told(Progress::in_layer(done, of, total, layer));
-        advance_side(space, side, room, bytes, cancelled, told)?;
+        let progress = |now: Progress| {
+            (control.progress)(Progress::in_layer(done, of, total, now.layer));
+        };
+        let own = Control {
+            progress: &progress,
+            ..control
+        };
+        advance_side(space, side, (room, bytes), own)?;
         total += side.nodes.len();
     }
     Some([front, back])
@@ -167,10 +175,8 @@ fn build_halves<'a>(
 fn advance_side(
     space: &Space,
     side: &mut Side<'_>,
-    room: usize,
-    bytes: usize,
-    cancelled: &(dyn Fn() -> bool + Sync),
-    told: &mut dyn FnMut(usize),
+    (room, bytes): (usize, usize),
+    control: Control<'_>,
 ) -> Option<()> {
     let stage = side.next_stage();
     let choices = &space.variables[stage.variable].choices;
@@ -187,8 +193,7 @@ fn advance_side(
         &from,
         Merge::new((room, bytes), Stop::Exhausted, edges, 1),
         |_, _, _| false,
-        cancelled,
-        told,
+        control,
     );
     if merge.stop != Stop::Exhausted {
         return None;

@@ -256,7 +256,7 @@ pub(crate) fn assert_as_the_twins(
             && asked.max_changes.is_none_or(|most| f.changes <= most)
     };
     let those = |is: &dyn Fn(&Twin) -> bool| seen.iter().filter(|f| is(f)).collect_vec();
-    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let diagrams = search.build_diagrams(Control::NONE);
     let first = search.count_variants(&diagrams.determinate, false);
     let second = search.count_variants(&diagrams.admissible, true);
     let wanted = those(&admissible);

@@ -5,7 +5,7 @@ use super::text;
 use crate::common::*;
 
 fn pool(s: &Search, n: usize) -> Vec<Assignment> {
-    let d = s.build_diagrams(&|| false, &mut |_| {});
+    let d = s.build_diagrams(Control::NONE);
     s.cheapest_variants(&d, n).collect()
 }
 

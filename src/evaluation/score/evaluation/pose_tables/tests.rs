@@ -10,6 +10,7 @@ use crate::rank::exact::field::exact_field;
 use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::search::answer::k_best::Assignment;
+use crate::search::diagram::Control;
 use crate::search::question::conditions::Conditions;
 
 /// Creates a hinge and a joint behind it, in a unit of which `metre` make a metre.
@@ -127,7 +128,7 @@ fn as_built(stroke: &str) {
     for turned in [false, true] {
         let m = three_cranks(turned, stroke);
         let search = Search::new(exact_field(&m, 0).unwrap(), m, Conditions::default()).unwrap();
-        let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+        let diagrams = search.build_diagrams(Control::NONE);
         let evaluator = Evaluator::new(&search, ClearanceSum::Worst).unwrap();
         let mut compared = 0;
         // With a slot at both ends a crank slides as it likes, and is nowhere for certain.

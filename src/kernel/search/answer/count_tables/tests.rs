@@ -23,7 +23,7 @@ fn under_bounds_only_the_keys_of_tables_are_carried_on() {
         let bound = Some(&[1, u64::MAX][..]);
         let room = 1 << 20;
         (tables, numbers, _) =
-            layer_tables(&diagram, &steps, l, bound, &tables, &numbers, room).unwrap();
+            layer_tables(&diagram, &steps, l, bound, (&tables, &numbers), room).unwrap();
         let dearest = Key(keys[3].0 * (variables - l) as u128);
         assert_eq!(numbers.keys, [Key::default(), keys[1], dearest]);
         assert_eq!(numbers.places, [vec![0, 1], vec![2]]);

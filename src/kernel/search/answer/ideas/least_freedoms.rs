@@ -42,10 +42,10 @@ impl Question {
     ///
     /// # Examples
     /// ```
-    /// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+    /// use ozols::{rank::exact::field::exact_field, search::{Search, diagram::Control, question::conditions::Conditions}};
     /// let four_bar = ozols::built_in("four-bar")?;
     /// let search = Search::new(exact_field(&four_bar, 0)?, &four_bar, Conditions::default())?;
-    /// let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    /// let diagrams = search.build_diagrams(Control::NONE);
     /// assert_eq!(search.count_variants(&diagrams.admissible, true).to_string(), "14");
     /// assert_eq!(search.count_minimal(&diagrams), Some(12u32.into()));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
