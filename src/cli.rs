@@ -59,9 +59,10 @@ pub fn run() -> ExitCode {
 /// bad input or failure, 130 interrupted by Ctrl-C, 143 by SIGTERM and 129 by SIGHUP.
 pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<OsString> = words.into_iter().collect();
-    let (words, opened) = with_command(words);
+    let program = program();
+    let (words, opened) = with_command(&program, words);
     terminal::interrupt::outlive_file_limits();
-    let parsed = program().try_get_matches_from(&words);
+    let parsed = program.try_get_matches_from(&words);
     let parsed = parsed.and_then(|m| Ok((Args::from_arg_matches(&m)?, output_files(&m))));
     let (args, outputs) = match parsed {
         Ok(parsed) => parsed,
@@ -141,12 +142,15 @@ pub fn error_text(e: &anyhow::Error) -> String {
 
 /// Returns the arguments with the command that a file alone means: `studio` if there is a display and standard output is a terminal,
 /// otherwise `check`, with the file.
-fn with_command(mut words: Vec<OsString>) -> (Vec<OsString>, Option<String>) {
+fn with_command(
+    program: &clap::Command,
+    mut words: Vec<OsString>,
+) -> (Vec<OsString>, Option<String>) {
     let file = match &words[..] {
         [_, file] => file.to_string_lossy().into_owned(),
         _ => return (words, None),
     };
-    let is_command = Args::command().find_subcommand(&file).is_some();
+    let is_command = program.find_subcommand(&file).is_some();
     let path = Path::new(&file);
     let is_file = path.extension().is_some() || path.is_file() || builtin::text(&file).is_some();
     if is_command || file.starts_with('-') || !is_file {

@@ -143,9 +143,10 @@ fn render_columns<'a>(columns: impl Iterator<Item = (&'a Vec<&'a str>, usize)>) 
             let mut text = String::new();
             for (lines, (_, width)) in cells.iter().zip(&columns) {
                 let cell = lines.get(line).map_or("", |l| l);
-                let gap = width + PADDING - display_width(cell);
+                // A wide letter does not fit a column of one.
+                let gap = (width + PADDING - 1).saturating_sub(display_width(cell));
                 text.extend(["  ", cell]);
-                text.extend(std::iter::repeat_n(' ', gap - 1));
+                text.extend(std::iter::repeat_n(' ', gap));
             }
             text.truncate(text.trim_end().len());
             out.push(text);
