@@ -1,7 +1,6 @@
 //! Sets of the nodes of a layer, and of the nodes of one half of a diagram that complete those of the other.
 
-use crate::search::diagram::ShouldCancel;
-use crate::search::diagram::layer::DEAD;
+use crate::search::diagram::layer::{DEAD, ShouldCancel};
 use hashbrown::HashMap;
 use rayon::prelude::*;
 
