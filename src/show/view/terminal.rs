@@ -101,7 +101,7 @@ pub fn table_of(header: &[&str], rows: Vec<Vec<String>>, width: Option<u16>) -> 
         let full = columns.iter().map(|column| used_width(column, usize::MAX));
         return render_columns(columns.iter().zip(full));
     };
-    let least = columns.iter().map(|column| least_width(column, width / 2));
+    let least = columns.iter().map(|column| least_width(column, width));
     let parts = fitting_parts(&least.collect_vec(), width);
     let part = |part: Vec<usize>| {
         let columns = part.iter().map(|&c| &columns[c]).collect_vec();
@@ -115,7 +115,7 @@ pub fn table_of(header: &[&str], rows: Vec<Vec<String>>, width: Option<u16>) -> 
 /// share what the others leave.
 fn fitting_widths(columns: &[&Vec<&str>], width: usize) -> Vec<usize> {
     let fits = |widths: &Vec<usize>| taken_width(widths.iter().copied()) <= width;
-    let least = columns.iter().map(|column| least_width(column, width / 2));
+    let least = columns.iter().map(|column| least_width(column, width));
     let least = least.collect_vec();
     let cells = columns.iter().zip(&least);
     let cells = cells.map(|(column, &least)| used_width(&column[1..], usize::MAX).max(least));
@@ -173,11 +173,12 @@ fn used_width(cells: &[&str], most: usize) -> usize {
     lines.map(|l| display_width(&l)).max().unwrap_or(0).max(1)
 }
 
-/// Returns the least width of a column: its longest word, but no more than `most`.
-fn least_width(column: &[&str], most: usize) -> usize {
+/// Returns the least width of a column of a table that is `width` wide: its longest word, but no more than of two columns that fit.
+fn least_width(column: &[&str], width: usize) -> usize {
     let words = column.iter().flat_map(|cell| cell.split_whitespace());
     let longest = words.map(display_width).max().unwrap_or(0);
-    longest.min(most).max(1)
+    let half = (width / 2).saturating_sub(PADDING + 1);
+    longest.min(half).max(1)
 }
 
 /// Splits the columns into parts that fit, with the first column in each.
@@ -298,6 +299,15 @@ mod tests {
         let wide = 1 + rule.find(' ').unwrap();
         let first = text.lines().map(|l| l.get(..wide).unwrap_or(l).trim());
         assert!(first.collect::<String>().contains(&name), "{text}");
+    }
+
+    #[test]
+    fn two_columns_of_long_words_fit() {
+        let row = |i: usize| vec![format!("{}{i}", "contour-".repeat(4)), "joint-".repeat(5)];
+        for width in 12..100 {
+            let text = text_table("contour | joints", [row(1), row(2)], Some(width));
+            assert!(widest(&text) <= usize::from(width), "{width}:\n{text}");
+        }
     }
 
     #[test]
