@@ -2,6 +2,8 @@
 
 use crate::common::*;
 use num_traits::Zero;
+use ozols::score::request::Method;
+use ozols::score::run::run;
 use ozols::search::answer::why_none::{Relaxation, find_obstacles, find_relaxations};
 
 /// Plates in a plane, in rows and columns, each on hinges with its neighbours at places drawn from a seed; and how many
@@ -63,4 +65,22 @@ fn what_the_plane_decides_takes_no_step() {
         let few = |r: &Relaxation| matches!(r, Relaxation::Redundant(n) if *n as usize >= short);
         assert!(eased.iter().all(|(r, _)| few(r)), "{eased:?}");
     }
+}
+
+/// What would help is found on the diagram, also if the search itself looks at every variant.
+#[test]
+fn brute_force_does_not_look_at_every_wider_variant() {
+    let of = |method| {
+        let request = Request {
+            method,
+            options: vec!["revolute".to_owned()],
+            ..Request::default()
+        };
+        let lift = ozols::built_in("scissor-lift-3").unwrap();
+        let outcome = run(lift, &request, &|| false, &mut |_| {}).unwrap();
+        assert!(outcome.listed_counts().total.is_zero());
+        let wider = outcome.would_help().expect("more types help");
+        (wider.options, format!("{:?}", wider.allow))
+    };
+    assert_eq!(of(Method::Brute), of(Method::Diagram));
 }

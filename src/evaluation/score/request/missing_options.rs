@@ -4,7 +4,7 @@ use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, JointId, Mechanism, StateId};
 use crate::score::outcome::Outcome;
 use crate::score::request::unlisted::{framed_types, named_part, type_fits};
-use crate::score::request::{Check, Inserts, JointOptions, List, Request};
+use crate::score::request::{Check, Inserts, JointOptions, List, Method, Request};
 use crate::score::run::answer_request;
 use crate::search::answer::single_changes::USUAL;
 use itertools::Itertools;
@@ -119,6 +119,7 @@ impl Outcome {
             as_written: true,
             rank: Vec::new(),
             list: List::Top(BEST),
+            method: Method::Diagram,
             distinct: true,
             check: Check::None,
             poses: 0,
