@@ -100,15 +100,24 @@ pub(crate) fn read_plain(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
     Ok((format!("{file}.toml"), text.as_bytes().to_vec()))
 }
 
+/// Returns an error if there is neither a file nor a built-in mechanism of a name.
+pub(crate) fn ensure_exists(file: &Named) -> anyhow::Result<()> {
+    let known = &**file == "-" || file.path().exists() || builtin::text(file).is_some();
+    ensure!(known, unknown_file(file));
+    Ok(())
+}
+
 /// Returns the mechanism of a robot description and reports doubtful values. `None` if the argument is not such a file.
 fn description_of(file: &File) -> anyhow::Result<Option<robots::Imported>> {
     let (file, loops) = (&file.file, &file.loops);
     let path = file.path();
     if !path.is_file() || !robots::is_description(file) {
-        ensure!(
-            loops.path.is_none(),
-            "--loops is for robot descriptions, and {file} is not one; give a URDF, MJCF or SDF file, or omit --loops"
-        );
+        if loops.path.is_some() {
+            ensure_exists(file)?;
+            bail!(
+                "--loops is for robot descriptions, and {file} is not one; give a URDF, MJCF or SDF file, or omit --loops"
+            );
+        }
         return Ok(None);
     }
     let imported = import_description(path, &loops.import_options()?)?;

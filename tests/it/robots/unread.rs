@@ -45,6 +45,48 @@ const LUG: &str = "<link name='lug'/><joint name='j4' type='continuous'><parent 
     filename='gz-sim-detachable-joint-system'><parent_link>lug</parent_link><child_model>__model__</child_model>\
     <child_link>base</child_link></plugin></gazebo>";
 
+// A file of loops says what it has that nobody reads, and a list of types that are fewer or more than the loops is an error.
+#[test]
+fn nothing_of_a_file_of_loops_is_lost() {
+    let dir = Folder::with("five_bar.urdf", read_data("robots/five_bar.urdf"));
+    let pair = "closed_loop: [[end_left, end_right]]";
+    for (name, text, code, word) in [
+        (
+            "a.toml",
+            "[[loop]]\na = 'end_left'\nb = 'end_right'\n[[lop]]\n",
+            2,
+            "\"lop\"",
+        ),
+        (
+            "b.yaml",
+            &format!("{pair}\ntype: [6d, 6d]\n"),
+            2,
+            "2; write one type for each",
+        ),
+        (
+            "c.yaml",
+            &format!("{pair}\ntype: []\n"),
+            2,
+            "0; write one type for each",
+        ),
+        (
+            "d.yaml",
+            &format!("{pair}\ntype: [6d]\nclosed_lop: []\n"),
+            1,
+            "closed_lop",
+        ),
+    ] {
+        dir.put(name, text);
+        let (found, out, told) = dir.run(&format!("lint five_bar.urdf --loops {name}"));
+        let told = out + &told;
+        assert_eq!(found, Some(code), "{name}: {told}");
+        has(&told, word);
+    }
+    let (code, _, told) = dir.run("export none.urdf --loops b.yaml --to toml");
+    assert_eq!(code, Some(2), "{told}");
+    lacks(&told, "robot descriptions, and");
+}
+
 // A rectangle closes where it is drawn. Each way to say the closing hinge is that of a
 // file of loops beside it, for random lengths and tilts.
 #[test]

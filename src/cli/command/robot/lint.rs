@@ -96,6 +96,7 @@ fn lint_file(file: &Named, options: &robots::Options) -> anyhow::Result<Found> {
         let imported = import_description(file.path(), options)?;
         (imported.mechanism.clone(), Some(imported))
     } else {
+        load::ensure_exists(file)?;
         ensure!(
             options.loops.is_none(),
             "--loops is for robot descriptions, and {file} is not one"

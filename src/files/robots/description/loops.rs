@@ -142,7 +142,12 @@ fn direction<'de, D: Deserializer<'de>>(of: D) -> Result<Vector, D::Error> {
 fn read_loops(value: &Value, robot: &mut Robot) -> Found<()> {
     let (list, word) = match value {
         Value::Object(o) if o.contains_key("closed_loop") => return read_pairs(value, robot),
-        Value::Object(o) if o.contains_key("loop") => (read_list(value, "loop")?, "loop"),
+        Value::Object(o) if o.contains_key("loop") => {
+            if let Some(key) = o.keys().find(|key| *key != "loop") {
+                return Err(unknown_word("the file of loops", "key", key, "loop"));
+            }
+            (read_list(value, "loop")?, "loop")
+        }
         Value::Array(items) if !items.is_empty() => (items.clone(), "ball"),
         _ => {
             return Err(syntax_problem(
@@ -214,17 +219,22 @@ fn add_closure(id: &str, ends: [End; 2], kind: JointType, robot: &mut Robot) -> 
     Ok(())
 }
 
+/// Returns an error unless two lists have as many entries.
+fn ensure_one_each(list: (&str, usize), types: (&str, usize)) -> Found<()> {
+    if list.1 == types.1 {
+        return Ok(());
+    }
+    Err(syntax_problem(format!(
+        "{} has {} entries and {} {}; write one type for each",
+        list.0, list.1, types.0, types.1
+    )))
+}
+
 /// Gives the joints of `joint_name` the kinds of `joint_type`, which URDF cannot represent.
 fn retype_joints(of: &Value, robot: &mut Robot) -> Found<()> {
     let names: Vec<String> = read_list(of, "joint_name")?;
     let types: Vec<String> = read_list(of, "joint_type")?;
-    if names.len() != types.len() {
-        return Err(syntax_problem(format!(
-            "joint_name has {} entries and joint_type {}; write one type for each joint",
-            names.len(),
-            types.len()
-        )));
-    }
+    ensure_one_each(("joint_name", names.len()), ("joint_type", types.len()))?;
     for (name, kind) in names.iter().zip(&types) {
         let at = robot.joint_named("joint_name", name)?;
         let joint = &mut robot.joints[at];
@@ -259,6 +269,16 @@ fn read_pairs(of: &Value, robot: &mut Robot) -> Found<()> {
     retype_joints(of, robot)?;
     let types: Vec<String> = read_list(of, "type")?;
     let pairs: Vec<[String; 2]> = read_list(of, "closed_loop")?;
+    if of.get("type").is_some() {
+        ensure_one_each(("closed_loop", pairs.len()), ("type", types.len()))?;
+    }
+    let known = "closed_loop type name_mot joint_name joint_type";
+    for key in of.as_object().into_iter().flat_map(|o| o.keys()) {
+        if !known.split(' ').any(|k| k == key) {
+            let what = format!("the file of loops has this key, which is not read; known: {known}");
+            robot.report.leave_out(key, 0, what);
+        }
+    }
     for (i, [a, b]) in pairs.iter().enumerate() {
         let element = format!("loop-{}", i + 1);
         let kind = types.get(i).map_or("fixed", String::as_str);
