@@ -171,8 +171,8 @@ pub(super) struct Expanded<'a> {
 }
 
 /// Returns the merged children of a layer's nodes, without those for which `out` returns true. `out` receives the redundancy spent, the
-/// dimension that the choices add in the open contours, and the least cost of a path to the child. Of the progress only the
-/// number of children so far is told.
+/// dimension that the choices add in the open contours, and the least cost of a path to the child. The progress has only the
+/// number of children so far.
 pub(super) fn next_layer(
     stage: &Stage<'_>,
     from: &Expanded<'_>,
