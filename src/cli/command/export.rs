@@ -76,12 +76,7 @@ fn import_file(a: &Export) -> anyhow::Result<Option<Imported>> {
     }
     let flags = a.reading.typed_flags();
     let flag = flags.split(' ').next().unwrap_or_default();
-    load::ensure_exists(&a.file)?;
-    ensure!(
-        flag.is_empty(),
-        "{flag} is for robot descriptions, and {} is not one; give a URDF, MJCF or SDF file, or omit {flag}",
-        a.file
-    );
+    ensure!(flag.is_empty(), load::unsuited_option(flag, &a.file));
     Ok(None)
 }
 

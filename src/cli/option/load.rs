@@ -100,11 +100,15 @@ pub(crate) fn read_plain(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
     Ok((format!("{file}.toml"), text.as_bytes().to_vec()))
 }
 
-/// Returns an error if there is neither a file nor a built-in mechanism of a name.
-pub(crate) fn ensure_exists(file: &Named) -> anyhow::Result<()> {
-    let known = &**file == "-" || file.path().exists() || builtin::text(file).is_some();
-    ensure!(known, unknown_file(file));
-    Ok(())
+/// Returns the error of an option that robot descriptions alone take: the file is not one, or it does not exist.
+pub(crate) fn unsuited_option(option: &str, file: &Named) -> String {
+    let exists = &**file == "-" || file.path().exists() || builtin::text(file).is_some();
+    if !exists {
+        return unknown_file(file);
+    }
+    format!(
+        "{option} is for robot descriptions, and {file} is not one; give a URDF, MJCF or SDF file, or omit {option}"
+    )
 }
 
 /// Returns the mechanism of a robot description and reports doubtful values. `None` if the argument is not such a file.
@@ -112,12 +116,7 @@ fn description_of(file: &File) -> anyhow::Result<Option<robots::Imported>> {
     let (file, loops) = (&file.file, &file.loops);
     let path = file.path();
     if !path.is_file() || !robots::is_description(file) {
-        if loops.path.is_some() {
-            ensure_exists(file)?;
-            bail!(
-                "--loops is for robot descriptions, and {file} is not one; give a URDF, MJCF or SDF file, or omit --loops"
-            );
-        }
+        ensure!(loops.path.is_none(), unsuited_option("--loops", file));
         return Ok(None);
     }
     let imported = import_description(path, &loops.import_options()?)?;

@@ -117,9 +117,7 @@ pub(super) fn build_layers(
             wanted: &|edge| known.is_none_or(|known| known.has_edge(edge)),
             bytes: allowance.bytes,
         };
-        let progress = |now: Progress| {
-            (control.progress)(Progress::in_layer(done, stages.len(), total, now.layer));
-        };
+        let progress = |now: Progress| (control.progress)(now.after(done, stages.len(), total));
         let merge = next_layer(
             stage,
             &from,
@@ -128,10 +126,7 @@ pub(super) fn build_layers(
                 let ceiling = ceiling.as_mut();
                 ceiling.is_some_and(|c| c.is_above(done + 1, spent, dimension, least))
             },
-            Control {
-                progress: &progress,
-                ..control
-            },
+            control.with_progress(&progress),
         );
         stop = merge.stop;
         let (refused, mut next, mut edges) = (merge.refused, merge.next, merge.edges);
@@ -171,8 +166,8 @@ pub(super) struct Expanded<'a> {
 }
 
 /// Returns the merged children of a layer's nodes, without those for which `out` returns true. `out` receives the redundancy spent, the
-/// dimension that the choices add in the open contours, and the least cost of a path to the child. The progress has only the
-/// number of children so far.
+/// dimension that the choices add in the open contours, and the least cost of a path to the child. The progress is that of
+/// this layer alone.
 pub(super) fn next_layer(
     stage: &Stage<'_>,
     from: &Expanded<'_>,
@@ -215,7 +210,12 @@ pub(super) fn next_layer(
         if (control.cancelled)() {
             merge.interrupt_merge(edges);
         }
-        (control.progress)(Progress::in_layer(0, 1, 0, merge.next.len()));
+        (control.progress)(Progress {
+            done: 0,
+            of: 1,
+            nodes: merge.next.len(),
+            layer: merge.next.len(),
+        });
         if merge.edges.len() == edges {
             break;
         }

@@ -102,21 +102,20 @@ pub fn table_of(header: &[&str], rows: Vec<Vec<String>>, width: Option<u16>) -> 
         return render_columns(columns.iter().zip(full));
     };
     let least = columns.iter().map(|column| least_width(column, width));
-    let parts = fitting_parts(&least.collect_vec(), width);
-    let part = |part: Vec<usize>| {
-        let columns = part.iter().map(|&c| &columns[c]).collect_vec();
-        let widths = fitting_widths(&columns, width);
-        render_columns(columns.into_iter().zip(widths))
+    let least = least.collect_vec();
+    let part = |part: &Vec<usize>| {
+        let of_part = part.iter().map(|&c| &columns[c]).collect_vec();
+        let least = part.iter().map(|&c| least[c]).collect();
+        let widths = fitting_widths(&of_part, least, width);
+        render_columns(of_part.into_iter().zip(widths))
     };
-    parts.into_iter().map(part).join("\n\n")
+    fitting_parts(&least, width).iter().map(part).join("\n\n")
 }
 
-/// Returns the width of each column of a table that is `width` wide. Heads are wrapped before cells are, and the columns that need most
-/// share what the others leave.
-fn fitting_widths(columns: &[&Vec<&str>], width: usize) -> Vec<usize> {
+/// Returns the width of each column of a table that is `width` wide, at least its `least`. Heads are wrapped before cells are, and the
+/// columns that need most share what the others leave.
+fn fitting_widths(columns: &[&Vec<&str>], least: Vec<usize>, width: usize) -> Vec<usize> {
     let fits = |widths: &Vec<usize>| taken_width(widths.iter().copied()) <= width;
-    let least = columns.iter().map(|column| least_width(column, width));
-    let least = least.collect_vec();
     let cells = columns.iter().zip(&least);
     let cells = cells.map(|(column, &least)| used_width(&column[1..], usize::MAX).max(least));
     let least = Some(cells.collect()).filter(fits).unwrap_or(least);

@@ -96,10 +96,9 @@ fn lint_file(file: &Named, options: &robots::Options) -> anyhow::Result<Found> {
         let imported = import_description(file.path(), options)?;
         (imported.mechanism.clone(), Some(imported))
     } else {
-        load::ensure_exists(file)?;
         ensure!(
             options.loops.is_none(),
-            "--loops is for robot descriptions, and {file} is not one"
+            load::unsuited_option("--loops", file)
         );
         let (name, bytes) = load::read_plain(file)?;
         (mechanism_from_bytes(&name, &bytes)?, None)

@@ -272,9 +272,9 @@ fn read_pairs(of: &Value, robot: &mut Robot) -> Found<()> {
     if of.get("type").is_some() {
         ensure_one_each(("closed_loop", pairs.len()), ("type", types.len()))?;
     }
-    let known = "closed_loop type name_mot joint_name joint_type";
+    let known = "closed_loop, type, name_mot, joint_name, joint_type";
     for key in of.as_object().into_iter().flat_map(|o| o.keys()) {
-        if !known.split(' ').any(|k| k == key) {
+        if !known.split(", ").any(|k| k == key) {
             let what = format!("the file of loops has this key, which is not read; known: {known}");
             robot.report.leave_out(key, 0, what);
         }

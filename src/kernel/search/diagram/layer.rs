@@ -228,7 +228,7 @@ impl Merge {
     }
 }
 
-/// Returns whether to end early, with what is found so far.
+/// A function that returns whether to end early, with what is found so far.
 pub type ShouldCancel<'a> = &'a (dyn Fn() -> bool + Sync);
 
 /// How a search is ended early, and who hears how far it has come.
@@ -252,6 +252,17 @@ impl<'a> Control<'a> {
             progress: &|_| {},
         }
     }
+
+    /// Returns the same control for a part of the search, whose progress goes to `progress`.
+    pub(in crate::search) fn with_progress<'b>(
+        self,
+        progress: &'b (dyn Fn(Progress) + Sync),
+    ) -> Control<'b>
+    where
+        'a: 'b,
+    {
+        Control { progress, ..self }
+    }
 }
 
 impl fmt::Debug for Control<'_> {
@@ -274,19 +285,13 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Creates the progress in a layer after `done` of `of` variables, with `before` nodes before it and `layer` nodes in
-    /// it.
-    pub(in crate::search) fn in_layer(
-        done: usize,
-        of: usize,
-        before: usize,
-        layer: usize,
-    ) -> Progress {
+    /// Returns the progress of a part as that of the whole, which has `done` of `of` variables and `before` nodes before the part.
+    pub(in crate::search) fn after(self, done: usize, of: usize, before: usize) -> Progress {
         Progress {
-            done,
+            done: done + self.done,
             of,
-            nodes: before + layer,
-            layer,
+            nodes: before + self.nodes,
+            layer: self.layer,
         }
     }
 }

@@ -85,18 +85,8 @@ pub(in crate::search) fn two_sided(
     let of = question.parts.iter().map(|[front, _]| front.len()).sum();
     let (mut parts, mut done, mut total) = (Vec::new(), 0, 1);
     for ends in &question.parts {
-        let progress = |now: Progress| {
-            (control.progress)(Progress {
-                done: done + now.done,
-                of,
-                nodes: total + now.nodes,
-                ..now
-            });
-        };
-        let own = Control {
-            progress: &progress,
-            ..control
-        };
+        let progress = |now: Progress| (control.progress)(now.after(done, of, total));
+        let own = control.with_progress(&progress);
         let halves = build_halves(question, space, (parts.len(), ends), own)?;
         done += ends[0].len();
         total += halves.iter().map(|side| side.nodes.len()).sum::<usize>();
@@ -158,13 +148,8 @@ fn build_halves<'a>(
         let bytes = limits
             .bytes
             .checked_sub(side.held_bytes() + other.held_bytes())?;
-        let progress = |now: Progress| {
-            (control.progress)(Progress::in_layer(done, of, total, now.layer));
-        };
-        let own = Control {
-            progress: &progress,
-            ..control
-        };
+        let progress = |now: Progress| (control.progress)(now.after(done, of, total));
+        let own = control.with_progress(&progress);
         advance_side(space, side, (room, bytes), own)?;
         total += side.nodes.len();
     }
